@@ -1,0 +1,4 @@
+//! A reference cloth simulator and the software rasteriser that shows it.
+
+pub mod error;
+pub mod scene;

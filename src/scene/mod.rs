@@ -1,0 +1,268 @@
+//! What a scene is: the validated, strongly typed form of a scene file.
+//!
+//! Data flows `text -> format -> load (diagnostics) -> Scene -> Plan`. A [`Scene`] exists only
+//! when every value in it is finite and in range, so nothing further down checks input again.
+
+use nalgebra::Vector3;
+
+/// A point or direction in metres, world space, y up.
+pub type Vec3 = Vector3<f64>;
+
+/// Everything a scene file says, with every default filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The cloth, if the scene has one.
+    pub cloth: Option<Cloth>,
+    /// The planes, in file order.
+    pub planes: Vec<Plane>,
+    /// The spheres, in file order.
+    pub spheres: Vec<Sphere>,
+    /// How the cloth is moved.
+    pub sim: Sim,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// The one point light.
+    pub light: Light,
+    /// Picture size, samples, background and moment.
+    pub render: Render,
+}
+
+/// A rectangular cloth of point masses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cloth {
+    /// Extent along the grid's x, in metres (> 0).
+    pub width: f64,
+    /// Extent along the grid's y, in metres (> 0).
+    pub height: f64,
+    /// Points along x (>= 2): `W` of the method.
+    pub num_width_points: usize,
+    /// Points along y (>= 2): `H` of the method.
+    pub num_height_points: usize,
+    /// Half the distance that self-collision keeps between two points, in metres (>= 0).
+    pub thickness: f64,
+    /// How the cloth lies at the start.
+    pub orientation: Orientation,
+    /// Grid points `[x, y]` that never move.
+    pub pinned: Vec<[usize; 2]>,
+    /// Percent of a point's displacement that is lost per step (0..=100).
+    pub damping: f64,
+    /// Mass per area, in kg/m² (> 0).
+    pub density: f64,
+    /// Stiffness of structural and shearing springs, in N/m (>= 0); bending springs have 0.2 of it.
+    pub ks: f64,
+    /// Whether structural springs exist.
+    pub enable_structural: bool,
+    /// Whether shearing springs exist.
+    pub enable_shearing: bool,
+    /// Whether bending springs exist.
+    pub enable_bending: bool,
+    /// What the cloth looks like.
+    pub material: Material,
+}
+
+/// How the cloth lies at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// File value 0: in the plane y = 1.
+    Horizontal,
+    /// File value 1: in the plane z = 0 but for an offset of at most 1 mm per point.
+    Vertical,
+}
+
+/// A ball that the cloth collides with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    /// Centre, in metres.
+    pub origin: Vec3,
+    /// Radius, in metres (> 0).
+    pub radius: f64,
+    /// Part of the sliding that contact takes away (0..=1).
+    pub friction: f64,
+    /// Latitude and longitude counts of the drawn mesh (latitude >= 2, longitude >= 3).
+    pub resolution: [u32; 2],
+    /// What the ball looks like.
+    pub material: Material,
+}
+
+/// An infinite plane that the cloth collides with, drawn as a square of 4 m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of the plane, in metres.
+    pub point: Vec3,
+    /// Its normal as the file gives it: any length but 0.
+    pub normal: Vec3,
+    /// Part of the sliding that contact takes away (0..=1).
+    pub friction: f64,
+    /// What the plane looks like.
+    pub material: Material,
+}
+
+/// How the cloth is moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sim {
+    /// Frames per second of simulated time (> 0).
+    pub fps: f64,
+    /// Steps per frame (>= 1): `T` of the method.
+    pub steps_per_frame: u32,
+    /// Acceleration, in m/s².
+    pub gravity: Vec3,
+    /// The scheme that advances the positions.
+    pub integrator: Integrator,
+    /// The arithmetic of the positions.
+    pub precision: Precision,
+    /// How the first step knows the velocity.
+    pub start: Start,
+    /// What the damping percentage refers to.
+    pub damping: Damping,
+    /// Largest strain left by the stretch limit (0.1 = 10 %), or none.
+    pub stretch_limit: Option<f64>,
+    /// Passes of the stretch limit per step (>= 1).
+    pub stretch_passes: u32,
+    /// How close pairs of points of the cloth are found.
+    pub self_collision: SelfCollision,
+}
+
+/// The scheme that advances the positions (`sim.integrator`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Position Verlet, the report's.
+    Verlet,
+}
+
+/// The arithmetic of the positions (`sim.precision`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// binary64, the report's.
+    F64,
+}
+
+/// How the first step knows the velocity (`sim.start`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// `last = x`: the report's, first order.
+    Report,
+}
+
+/// What the damping percentage refers to (`sim.damping`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damping {
+    /// Per step, the report's.
+    PerStep,
+}
+
+/// How close pairs of points are found (`sim.self_collision`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SelfCollision {
+    /// Only within a point's own box, the report's.
+    SameBox,
+    /// Not at all.
+    Off,
+}
+
+/// The orbit camera of the report's viewer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// The point looked at, in metres; absent: derived from the cloth's start.
+    pub target: Option<Vec3>,
+    /// Distance from the target, in metres (> 0); absent: derived from the cloth's size.
+    pub distance: Option<f64>,
+    /// Angle from the +y axis, in degrees (0..=180).
+    pub polar: f64,
+    /// Angle around the y axis from +z towards +x, in degrees.
+    pub azimuth: f64,
+    /// Smallest horizontal field of view, in degrees (0 < hfov < 180).
+    pub hfov: f64,
+    /// Smallest vertical field of view, in degrees (0 < vfov < 180).
+    pub vfov: f64,
+    /// Distance of the near plane, in metres (> 0).
+    pub near: f64,
+    /// Distance of the far plane, in metres (> near).
+    pub far: f64,
+}
+
+/// The point light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Position, in metres.
+    pub position: Vec3,
+    /// Radiant intensity per channel (>= 0).
+    pub intensity: Vec3,
+    /// Colour of the light for the glossy ceramic (>= 0, not all 0).
+    pub color: Vec3,
+}
+
+/// What an object looks like: a shader and the constants of its formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Which program draws the object.
+    pub shader: Shader,
+    /// Surface colour c, linear, per channel.
+    pub color: Vec3,
+    /// Ambient weight.
+    pub ka: f64,
+    /// Diffuse weight.
+    pub kd: f64,
+    /// Specular weight.
+    pub ks: f64,
+    /// Specular exponent p (>= 0).
+    pub shininess: f64,
+    /// Mirror weight of the glossy ceramic.
+    pub km: f64,
+    /// kn: scales the slope that bump takes from the height map.
+    pub normal_scaling: f64,
+    /// kh: height of a white texel, in model units.
+    pub height_scaling: f64,
+    /// Name of the colour texture, such as `texture_1`.
+    pub texture: String,
+    /// Name of the height map, such as `texture_2`.
+    pub height_map: String,
+    /// Name of the cube map's folder, such as `cube`.
+    pub environment: String,
+}
+
+/// Which program draws an object (`material.shader`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shader {
+    /// Springs as lines; other objects in their flat colour.
+    Wireframe,
+    /// The normal as a colour.
+    Normal,
+    /// Lambert's law alone.
+    Diffuse,
+    /// Blinn-Phong.
+    Phong,
+    /// The colour texture alone.
+    Texture,
+    /// Blinn-Phong with normals from the height map.
+    Bump,
+    /// Bump, and the surface moved along its normal.
+    Displacement,
+    /// The environment, mirrored.
+    Mirror,
+    /// A glossy ceramic: displacement, texture and mirror together.
+    Custom,
+}
+
+/// Picture size, samples, background and moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Render {
+    /// Width and height in pixels (1..=16384).
+    pub size: [u32; 2],
+    /// Samples per pixel: 1, 4, 8 or 16.
+    pub samples: u32,
+    /// Clear colour, linear, per channel.
+    pub background: Vec3,
+    /// Simulated time of the picture, in seconds (>= 0).
+    pub time: f64,
+    /// How textures are looked up.
+    pub filter: Filter,
+}
+
+/// How textures are looked up (`render.filter`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// The texel under the point.
+    Nearest,
+    /// Four texels, weighted.
+    Bilinear,
+}
