@@ -1,4 +1,5 @@
 //! A reference cloth simulator and the software rasteriser that shows it.
 
 pub mod error;
+pub mod math;
 pub mod scene;
