@@ -3,3 +3,9 @@
 pub mod error;
 pub mod math;
 pub mod scene;
+
+pub mod texture;
+
+pub mod cubemap;
+
+pub mod texture_source;
