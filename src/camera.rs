@@ -47,10 +47,22 @@ fn view(eye: &Vec3, target: &Vec3, up: &Vec3) -> Matrix4<f64> {
     let x = unit(up.cross(&z));
     let y = z.cross(&x);
     Matrix4::new(
-        x.x, x.y, x.z, -x.dot(eye), //
-        y.x, y.y, y.z, -y.dot(eye), //
-        z.x, z.y, z.z, -z.dot(eye), //
-        0.0, 0.0, 0.0, 1.0,
+        x.x,
+        x.y,
+        x.z,
+        -x.dot(eye), //
+        y.x,
+        y.y,
+        y.z,
+        -y.dot(eye), //
+        z.x,
+        z.y,
+        z.z,
+        -z.dot(eye), //
+        0.0,
+        0.0,
+        0.0,
+        1.0,
     )
 }
 
@@ -61,10 +73,22 @@ fn projection(settings: &Settings, aspect: f64) -> Matrix4<f64> {
     let k = 1.0 / tan_half_vfov;
     let (n, f) = (settings.near, settings.far);
     Matrix4::new(
-        k / aspect, 0.0, 0.0, 0.0, //
-        0.0, k, 0.0, 0.0, //
-        0.0, 0.0, -(n + f) / (f - n), -2.0 * n * f / (f - n), //
-        0.0, 0.0, -1.0, 0.0,
+        k / aspect,
+        0.0,
+        0.0,
+        0.0, //
+        0.0,
+        k,
+        0.0,
+        0.0, //
+        0.0,
+        0.0,
+        -(n + f) / (f - n),
+        -2.0 * n * f / (f - n), //
+        0.0,
+        0.0,
+        -1.0,
+        0.0,
     )
 }
 

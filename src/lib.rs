@@ -1,16 +1,16 @@
 //! A reference cloth simulator and the software rasteriser that shows it.
 
-pub mod error;
-pub mod math;
-pub mod scene;
-pub mod cloth;
-mod dispatch;
-pub mod lanes;
-pub mod mesh;
 pub mod camera;
-pub mod texture;
+pub mod cloth;
 pub mod cubemap;
-pub mod texture_source;
-pub mod shader;
+mod dispatch;
+pub mod error;
+pub mod lanes;
+pub mod math;
+pub mod mesh;
 pub mod raster;
 pub mod render;
+pub mod scene;
+pub mod shader;
+pub mod texture;
+pub mod texture_source;

@@ -114,7 +114,12 @@ impl Renderer {
     }
 
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
-    pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> (Stats, Stages) {
+    pub fn draw_into(
+        &self,
+        framebuffer: &mut Framebuffer,
+        points: &Points,
+        options: &Options,
+    ) -> (Stats, Stages) {
         let objects = self.objects(points, options);
         let calls: Vec<_> = objects.iter().map(|object| self.draw_call::<Wide<f32>>(object)).collect();
         raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)
@@ -127,7 +132,12 @@ impl Renderer {
             let lines = (cloth.material.shader == Shader::Wireframe)
                 .then(|| spring_lines(cloth, options.springs.unwrap_or_else(|| SpringKinds::of(cloth))));
             let mesh = Mesh::cloth(cloth, points, needs(cloth.material.shader).attributes);
-            objects.push(Object { mesh, lines, model: model(&Vec3::zeros(), 1.0), material: &cloth.material });
+            objects.push(Object {
+                mesh,
+                lines,
+                model: model(&Vec3::zeros(), 1.0),
+                material: &cloth.material,
+            });
         }
         for plane in &self.scene.planes {
             let mesh = Mesh::plane(plane, needs(plane.material.shader).attributes);
