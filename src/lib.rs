@@ -3,3 +3,5 @@
 pub mod error;
 pub mod math;
 pub mod scene;
+
+pub mod output;
