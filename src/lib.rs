@@ -5,3 +5,5 @@ pub mod math;
 pub mod scene;
 
 pub mod output;
+
+pub mod cli;

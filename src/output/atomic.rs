@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Kind, Result};
 
+/// The number of the signal for a pipe whose reader has gone.
+pub const SIGPIPE: u8 = 13;
+
 /// What a file holds, as far as a terminal cares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
@@ -140,7 +143,6 @@ fn is_folder(path: &Path) -> Error {
 
 /// The error of a failed write. A reader that has gone away counts as the signal for that.
 fn failed(path: &Path, cause: &io::Error) -> Error {
-    const SIGPIPE: u8 = 13;
     if cause.kind() == io::ErrorKind::BrokenPipe {
         return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
     }
