@@ -4,6 +4,12 @@ pub mod error;
 pub mod math;
 pub mod scene;
 
+pub mod texture;
+
+pub mod cubemap;
+
+pub mod texture_source;
+
 pub mod output;
 
 pub mod cli;

@@ -1,0 +1,190 @@
+//! The number type of the fragment stage: one number, or eight side by side.
+//!
+//! A fragment program is written once over [`Lane`]. With `Wide<f32>` it shades eight fragments
+//! at a time, with `f32` one (for tests), with `f64` it is its own reference for the error study.
+//! Everything is plain loops over arrays: the compiler turns them into whatever vector
+//! instructions the machine has, and since it neither fuses nor reorders, the bits are the same.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Fragments that a [`Wide`] holds.
+pub const WIDTH: usize = 8;
+
+/// A number of the fragment stage: + − × ÷, and what follows, all exactly rounded.
+pub trait Lane:
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The same lanes in binary64, in which positions in the window are computed.
+    type Double: Lane;
+    /// How many fragments one value holds.
+    const LANES: usize;
+
+    /// The same number in every lane.
+    fn splat(value: f32) -> Self;
+    /// Lane i is `f(i)`.
+    fn from_fn(f: impl FnMut(usize) -> f32) -> Self;
+    /// Rounds binary64 lanes to this type.
+    fn narrow(double: Self::Double) -> Self;
+    /// Lane `index`, widened to binary64 (exact).
+    fn lane(self, index: usize) -> f64;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Largest whole number that is not above.
+    fn floor(self) -> Self;
+    /// `then` where `self < other`, else `otherwise` (also where either is NaN).
+    fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self;
+    /// `other` in the lanes that `mask` names, else `self`.
+    fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self;
+
+    /// The larger of two; `other` where either is NaN.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        other.select_less(self, self, other)
+    }
+
+    /// The smaller of two; `other` where either is NaN.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select_less(other, self, other)
+    }
+
+    /// The value without its sign.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.select_less(Self::splat(0.0), -self, self)
+    }
+}
+
+/// Eight numbers side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Wide<T>(pub [T; WIDTH]);
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $op:tt) => {
+        impl<T: Copy + $trait<Output = T>> $trait for Wide<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for (a, b) in self.0.iter_mut().zip(other.0) {
+                    *a = *a $op b;
+                }
+                self
+            }
+        }
+    };
+}
+operator!(Add, add, +);
+operator!(Sub, sub, -);
+operator!(Mul, mul, *);
+operator!(Div, div, /);
+
+impl<T: Copy + Neg<Output = T>> Neg for Wide<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|a| -a))
+    }
+}
+
+macro_rules! lanes {
+    ($scalar:ty) => {
+        impl Lane for $scalar {
+            type Double = f64;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn splat(value: f32) -> Self {
+                value.into()
+            }
+            #[inline(always)]
+            fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
+                f(0).into()
+            }
+            #[inline(always)]
+            fn narrow(double: f64) -> Self {
+                double as $scalar
+            }
+            #[inline(always)]
+            fn lane(self, _index: usize) -> f64 {
+                self.into()
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$scalar>::sqrt(self)
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                <$scalar>::floor(self)
+            }
+            #[inline(always)]
+            fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+                if self < other { then } else { otherwise }
+            }
+            #[inline(always)]
+            fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self {
+                if mask[0] { other } else { self }
+            }
+        }
+
+        impl Lane for Wide<$scalar> {
+            type Double = Wide<f64>;
+            const LANES: usize = WIDTH;
+
+            #[inline(always)]
+            fn splat(value: f32) -> Self {
+                Self([value.into(); WIDTH])
+            }
+            #[inline(always)]
+            fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
+                Self(std::array::from_fn(|i| f(i).into()))
+            }
+            #[inline(always)]
+            fn narrow(double: Wide<f64>) -> Self {
+                Self(double.0.map(|d| d as $scalar))
+            }
+            #[inline(always)]
+            fn lane(self, index: usize) -> f64 {
+                self.0[index].into()
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.map(<$scalar>::sqrt))
+            }
+            #[inline(always)]
+            fn floor(self) -> Self {
+                Self(self.0.map(<$scalar>::floor))
+            }
+            #[inline(always)]
+            fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
+                let mut result = otherwise;
+                for i in 0..WIDTH {
+                    result.0[i] = if self.0[i] < other.0[i] { then.0[i] } else { result.0[i] };
+                }
+                result
+            }
+            #[inline(always)]
+            fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self {
+                let mut result = self;
+                for i in 0..WIDTH {
+                    result.0[i] = if mask[i] { other.0[i] } else { result.0[i] };
+                }
+                result
+            }
+        }
+    };
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "narrow is the one place that rounds to f32")]
+mod implementations {
+    use super::{Lane, WIDTH, Wide};
+    lanes!(f32);
+    lanes!(f64);
+}

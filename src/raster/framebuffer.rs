@@ -1,0 +1,83 @@
+//! Where a picture is made: colour, depth and visible primitive per pixel, kept tile by tile so
+//! that each tile is one disjoint piece of memory for one thread.
+
+/// Width and height of a tile in pixels.
+pub(super) const TILE: usize = 64;
+/// Pixels of a tile.
+pub(super) const TILE_PIXELS: usize = TILE * TILE;
+
+/// A picture in the making, with depth and visibility per sample.
+#[derive(Clone, Debug)]
+pub struct Framebuffer {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) samples: usize,
+    pub(super) columns: usize,
+    pub(super) tiles: Vec<Tile>,
+}
+
+/// One tile. Pixel (x, y) of the tile is element `y * TILE + x`; buffers with several samples hold
+/// all pixels of sample 0 first.
+#[derive(Clone, Debug)]
+pub(super) struct Tile {
+    /// Picture column of the tile's left column.
+    pub(super) left: usize,
+    /// Picture row of the tile's top row.
+    pub(super) top: usize,
+    /// Stored colour.
+    pub(super) color: Vec<[u8; 3]>,
+    /// Window depth per sample; 1 where nothing was drawn.
+    pub(super) depth: Vec<f32>,
+    /// The primitive seen per sample (see `bin::Handle`); 0 where nothing was drawn.
+    pub(super) visible: Vec<u32>,
+    /// Object and triangle per pixel (of sample 0), if asked for.
+    pub(super) ids: Vec<u32>,
+}
+
+impl Framebuffer {
+    /// A framebuffer of `width` × `height` pixels with `samples` (1, 4, 8 or 16) samples each.
+    pub fn new(width: u32, height: u32, samples: u32) -> Self {
+        let (width, height, samples) = (width as usize, height as usize, samples as usize);
+        let columns = width.div_ceil(TILE);
+        let tiles = (0..columns * height.div_ceil(TILE))
+            .map(|i| Tile {
+                left: i % columns * TILE,
+                top: i / columns * TILE,
+                color: vec![[0; 3]; TILE_PIXELS],
+                depth: vec![1.0; TILE_PIXELS * samples],
+                visible: vec![0; TILE_PIXELS * samples],
+                ids: Vec::new(),
+            })
+            .collect();
+        Self { width, height, samples, columns, tiles }
+    }
+
+    /// Stored colours, three bytes a pixel, top row first.
+    pub fn rgb(&self) -> Vec<u8> {
+        self.rows(|tile| &tile.color).flatten().copied().collect()
+    }
+
+    /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.
+    pub fn depth(&self) -> Vec<f32> {
+        self.rows(|tile| &tile.depth).copied().collect()
+    }
+
+    /// Ids per pixel, top row first, of the pixel's first sample; empty if they were not asked for.
+    pub fn ids(&self) -> Vec<u32> {
+        if self.tiles.iter().all(|tile| tile.ids.is_empty()) {
+            return Vec::new();
+        }
+        self.rows(|tile| &tile.ids).copied().collect()
+    }
+
+    /// The values of one buffer in picture order.
+    fn rows<'a, T: 'a>(&'a self, buffer: impl Fn(&'a Tile) -> &'a Vec<T> + Copy) -> impl Iterator<Item = &'a T> {
+        (0..self.height).flat_map(move |y| {
+            (0..self.columns).flat_map(move |column| {
+                let tile = &self.tiles[y / TILE * self.columns + column];
+                let row = y % TILE * TILE;
+                buffer(tile)[row..row + TILE.min(self.width - tile.left)].iter()
+            })
+        })
+    }
+}

@@ -1,0 +1,223 @@
+//! The rasteriser: draw calls in, a picture out.
+//!
+//! `vertex` → `clip` → `setup` → `bin` → per tile: `tile` and `line` (what is seen where) →
+//! `shade` (what colour it has). Visibility comes first and only what is seen is shaded, so
+//! a hidden fragment costs no shading. Tiles and chunks are disjoint pieces of work of fixed size;
+//! within a tile primitives keep their submission order: the same bytes for any number of threads.
+
+mod bin;
+mod clip;
+mod framebuffer;
+mod line;
+mod resolve;
+mod samples;
+mod setup;
+mod shade;
+mod tile;
+mod vertex;
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::{
+    dispatch::dispatch,
+    lanes::Lane,
+    mesh::Attributes,
+    shader::glsl::{FragmentProgram, VertexProgram},
+};
+use bin::{CHUNK, Chunk};
+use setup::Viewport;
+use shade::Fragments;
+use vertex::VertexBuffer;
+
+pub use framebuffer::Framebuffer;
+
+/// What a draw call draws: vertex indices per primitive.
+#[derive(Clone, Copy, Debug)]
+pub enum Primitives<'a> {
+    /// Filled triangles, both sides.
+    Triangles(&'a [[u32; 3]]),
+    /// Lines one pixel wide, in one colour: their fragment program reads no varyings.
+    Lines(&'a [[u32; 2]]),
+}
+
+type VertexStage<'a> = Box<dyn Fn() -> VertexBuffer + Send + Sync + 'a>;
+type FragmentStage<'a> = Box<dyn Fn(&Fragments<'_>, &mut Vec<[f32; 3]>) + Send + Sync + 'a>;
+
+/// A mesh with its two programs.
+pub struct DrawCall<'a> {
+    primitives: Primitives<'a>,
+    vertex_stage: VertexStage<'a>,
+    fragment_stage: FragmentStage<'a>,
+}
+
+impl<'a> DrawCall<'a> {
+    /// Draws `primitives` over `count` vertices. `N` is the number of varyings, `L` the lanes that
+    /// the fragment program is run in.
+    pub fn new<L: Lane, const N: usize>(
+        primitives: Primitives<'a>,
+        count: usize,
+        attributes: impl Fn(usize) -> Attributes + Send + Sync + 'a,
+        vertex_program: impl VertexProgram<N> + 'a,
+        fragment_program: impl FragmentProgram<L, N> + 'a,
+    ) -> Self {
+        Self {
+            primitives,
+            vertex_stage: Box::new(move || vertex::run(count, &attributes, &vertex_program)),
+            fragment_stage: Box::new(move |fragments, colors| {
+                dispatch(|| shade::shade(fragments, &fragment_program, colors));
+            }),
+        }
+    }
+}
+
+/// What drawing a picture took. Counts are the same for any number of threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Stats {
+    /// Vertices shaded.
+    pub vertices: u64,
+    /// Triangles submitted.
+    pub triangles: u64,
+    /// Lines submitted.
+    pub lines: u64,
+    /// Primitives outside of the view volume.
+    pub outside: u64,
+    /// Primitives cut by a plane of the view volume.
+    pub clipped: u64,
+    /// Primitives dropped for a NaN, infinite or far too large coordinate.
+    pub non_finite: u64,
+    /// Triangles dropped because their snapped corners span no area.
+    pub degenerate: u64,
+    /// Primitives dropped because they lie between the samples.
+    pub no_sample: u64,
+    /// Primitives that reached the tiles (those cut may be several).
+    pub drawn: u64,
+    /// Runs of a fragment program: pixels × primitives seen in them.
+    pub fragments: u64,
+    /// Pixels in which a primitive is seen.
+    pub covered: u64,
+}
+
+/// Wall time per stage. Rasterising and shading alternate within a tile; their shares of the
+/// tiles' wall time are those of their summed processor time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stages {
+    /// Vertex programs.
+    pub vertex: Duration,
+    /// Clipping, set-up and binning.
+    pub setup: Duration,
+    /// Clearing, coverage and depth.
+    pub raster: Duration,
+    /// Interpolation, fragment programs and resolve.
+    pub shading: Duration,
+}
+
+/// Clears the framebuffer to `background` and draws `calls` in order.
+///
+/// With `ids`, also keeps per pixel `object << 24 | (triangle + 1)`, objects numbered from 1.
+pub fn draw(
+    framebuffer: &mut Framebuffer,
+    background: [f32; 3],
+    calls: &[DrawCall<'_>],
+    ids: bool,
+) -> (Stats, Stages) {
+    let started = Instant::now();
+    let buffers: Vec<VertexBuffer> = calls.iter().map(|call| (call.vertex_stage)()).collect();
+    let shaded = Instant::now();
+    let chunks = assemble(framebuffer, calls, &buffers);
+    let binned = Instant::now();
+
+    let scene = TileScene { calls, buffers: &buffers, chunks: &chunks, viewport: viewport(framebuffer), background, ids };
+    let tiles: Vec<TileCost> =
+        framebuffer.tiles.par_iter_mut().enumerate().map(|(index, tile)| resolve::draw_tile(tile, index, &scene)).collect();
+
+    let wall = binned.elapsed();
+    let raster: Duration = tiles.iter().map(|tile| tile.raster).sum();
+    let shading: Duration = tiles.iter().map(|tile| tile.shading).sum();
+    let share = wall.div_duration_f64((raster + shading).max(Duration::from_nanos(1)));
+    let stages = Stages {
+        vertex: shaded - started,
+        setup: binned - shaded,
+        raster: raster.mul_f64(share),
+        shading: shading.mul_f64(share),
+    };
+    (count(calls, &buffers, &chunks, &tiles), stages)
+}
+
+/// What a tile needs to know to be drawn.
+struct TileScene<'a> {
+    calls: &'a [DrawCall<'a>],
+    buffers: &'a [VertexBuffer],
+    chunks: &'a [Chunk],
+    viewport: Viewport,
+    background: [f32; 3],
+    ids: bool,
+}
+
+/// What a tile took.
+#[derive(Clone, Copy, Debug, Default)]
+struct TileCost {
+    fragments: u64,
+    covered: u64,
+    raster: Duration,
+    shading: Duration,
+}
+
+fn viewport(framebuffer: &Framebuffer) -> Viewport {
+    Viewport { width: framebuffer.width, height: framebuffer.height, samples: framebuffer.samples }
+}
+
+/// Clips, sets up and bins the primitives of all calls, chunk by chunk.
+fn assemble(framebuffer: &Framebuffer, calls: &[DrawCall<'_>], buffers: &[VertexBuffer]) -> Vec<Chunk> {
+    let (viewport, columns, tiles) = (viewport(framebuffer), framebuffer.columns, framebuffer.tiles.len());
+    let pieces: Vec<(usize, usize)> = calls
+        .iter()
+        .enumerate()
+        .flat_map(|(call, c)| (0..c.primitives.len()).step_by(CHUNK).map(move |first| (call, first)))
+        .collect();
+    let chunk = |&(call, first): &(usize, usize)| {
+        let last = calls[call].primitives.len().min(first + CHUNK);
+        let mut chunk = match calls[call].primitives {
+            Primitives::Triangles(all) => {
+                Chunk::of_triangles((call, first), &all[first..last], &buffers[call], &viewport)
+            }
+            Primitives::Lines(all) => Chunk::of_lines((call, first), &all[first..last], &buffers[call], &viewport),
+        };
+        chunk.sort_into_tiles(columns, tiles);
+        chunk
+    };
+    pieces.par_iter().map(chunk).collect()
+}
+
+impl Primitives<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Triangles(all) => all.len(),
+            Self::Lines(all) => all.len(),
+        }
+    }
+}
+
+fn count(calls: &[DrawCall<'_>], buffers: &[VertexBuffer], chunks: &[Chunk], tiles: &[TileCost]) -> Stats {
+    let mut stats = Stats::default();
+    for (call, buffer) in calls.iter().zip(buffers) {
+        stats.vertices += buffer.positions.len() as u64;
+        match call.primitives {
+            Primitives::Triangles(all) => stats.triangles += all.len() as u64,
+            Primitives::Lines(all) => stats.lines += all.len() as u64,
+        }
+    }
+    for counts in chunks.iter().map(|chunk| chunk.counts) {
+        stats.outside += counts.outside;
+        stats.clipped += counts.clipped;
+        stats.non_finite += counts.non_finite;
+        stats.degenerate += counts.degenerate;
+        stats.no_sample += counts.no_sample;
+        stats.drawn += counts.drawn;
+    }
+    stats.fragments = tiles.iter().map(|tile| tile.fragments).sum();
+    stats.covered = tiles.iter().map(|tile| tile.covered).sum();
+    stats
+}

@@ -1,0 +1,172 @@
+//! Set-up: from clip space to the window, snapped for coverage, unsnapped for everything else.
+
+use super::samples;
+
+/// Sub-pixel positions per pixel: coverage is decided on a grid of 1/256 pixel.
+pub(super) const SUBPIXELS: i32 = 256;
+
+/// Largest snapped coordinate: 2^23/256 pixels. With it every edge value stays below 2^48.
+const SNAPPED_LIMIT: f32 = 8_388_608.0;
+
+/// The part of the window that pictures use.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Viewport {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) samples: usize,
+}
+
+/// A vertex in the window: x right, y up (both in pixels, unsnapped), depth, and 1/w.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WindowVertex {
+    pub(super) x: f32,
+    pub(super) y: f32,
+    pub(super) z: f32,
+    pub(super) r: f32,
+}
+
+/// A triangle ready for the tiles. Its corners are ordered so that its snapped area is positive
+/// with y down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    pub(super) window: [WindowVertex; 3],
+    /// Corners in 1/256 pixel, x right, y down.
+    pub(super) snapped: [[i32; 2]; 3],
+    /// Where each corner's varyings stand (see `bin::Chunk::varyings_of`).
+    pub(super) vertices: [u32; 3],
+    /// Number of the triangle in its mesh.
+    pub(super) source: u32,
+}
+
+/// A line ready for the tiles: from the first point up to, not including, the last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub(super) window: [WindowVertex; 2],
+    pub(super) snapped: [[i32; 2]; 2],
+    pub(super) source: u32,
+}
+
+/// Pixels that a primitive may touch: first and last column and row, inclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Bounds {
+    pub(super) x: [usize; 2],
+    pub(super) y: [usize; 2],
+}
+
+/// Why a primitive is not drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dropped {
+    /// A coordinate is NaN, infinite, or too large for the snapping grid.
+    NonFinite,
+    /// Its snapped corners span no area.
+    Degenerate,
+    /// It lies between the samples.
+    NoSample,
+}
+
+impl Viewport {
+    /// The window position of a clip-space position, as GL defines it: r = 1/w, ndc = clip·r.
+    #[expect(clippy::cast_possible_truncation, reason = "window coordinates are f32 by definition")]
+    pub(super) fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowVertex {
+        let r = 1.0 / w;
+        let half = |extent: usize| extent as f64 / 2.0;
+        let place = |ndc: f32, extent: usize| (f64::from(ndc) * half(extent) + half(extent)) as f32;
+        WindowVertex { x: place(x * r, self.width), y: place(y * r, self.height), z: z * r * 0.5 + 0.5, r }
+    }
+
+    /// The position on the snapping grid, rounded half to even; y turned down.
+    pub(super) fn snap(&self, v: WindowVertex) -> Result<[i32; 2], Dropped> {
+        let finite = v.z.is_finite() && v.r.is_finite();
+        let grid = |c: f32| (c * SUBPIXELS as f32).round_ties_even();
+        let (x, y) = (grid(v.x), grid(v.y));
+        if finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT {
+            #[expect(clippy::cast_possible_truncation, reason = "checked right above")]
+            Ok([x as i32, self.height as i32 * SUBPIXELS - y as i32])
+        } else {
+            Err(Dropped::NonFinite)
+        }
+    }
+
+    /// Sets up a triangle from its corners in clip space.
+    pub(super) fn triangle(
+        &self,
+        corners: [[f32; 4]; 3],
+        vertices: [u32; 3],
+        source: u32,
+    ) -> Result<(Triangle, Bounds), Dropped> {
+        let mut window = corners.map(|corner| self.window(corner));
+        let mut snapped = [self.snap(window[0])?, self.snap(window[1])?, self.snap(window[2])?];
+        let mut vertices = vertices;
+        let area = area(snapped);
+        if area == 0 {
+            return Err(Dropped::Degenerate);
+        }
+        if area < 0 {
+            window.swap(1, 2);
+            snapped.swap(1, 2);
+            vertices.swap(1, 2);
+        }
+        let bounds = self.bounds(&snapped)?;
+        if window_area(&window) == 0.0 {
+            // The planes of depth and attributes need an area; the snapped corners have one.
+            for (vertex, [x, y]) in window.iter_mut().zip(snapped) {
+                vertex.x = x as f32 / SUBPIXELS as f32;
+                vertex.y = (self.height as i32 * SUBPIXELS - y) as f32 / SUBPIXELS as f32;
+            }
+        }
+        Ok((Triangle { window, snapped, vertices, source }, bounds))
+    }
+
+    /// Sets up a line from its ends in clip space.
+    pub(super) fn line(&self, ends: [[f32; 4]; 2], source: u32) -> Result<(Line, Bounds), Dropped> {
+        let window = ends.map(|end| self.window(end));
+        let snapped = [self.snap(window[0])?, self.snap(window[1])?];
+        let [x, y] = [0, 1].map(|axis| {
+            let [a, b] = snapped.map(|corner| corner[axis].div_euclid(SUBPIXELS));
+            [a.min(b) - 1, a.max(b) + 1]
+        });
+        Ok((Line { window, snapped, source }, self.inside(x, y)?))
+    }
+
+    /// The pixels of which at least one sample may lie inside the corners' box.
+    fn bounds(&self, snapped: &[[i32; 2]; 3]) -> Result<Bounds, Dropped> {
+        let positions = samples::positions(self.samples);
+        let range = |axis: usize| {
+            let (mut first, mut last) = (i32::MAX, i32::MIN);
+            for corner in snapped {
+                (first, last) = (first.min(corner[axis]), last.max(corner[axis]));
+            }
+            // A sample at offset s of pixel p lies in first..=last iff first - s <= 256 p <= last - s.
+            let offsets = positions.iter().map(|position| position[axis] * (SUBPIXELS / 16));
+            let (low, high) = offsets.fold((SUBPIXELS, 0), |(low, high), s| (low.min(s), high.max(s)));
+            [(first - high + SUBPIXELS - 1).div_euclid(SUBPIXELS), (last - low).div_euclid(SUBPIXELS)]
+        };
+        self.inside(range(0), range(1))
+    }
+
+    /// The part of a pixel range that lies in the picture.
+    fn inside(&self, x: [i32; 2], y: [i32; 2]) -> Result<Bounds, Dropped> {
+        let within = |[first, last]: [i32; 2], extent: usize| {
+            let last = usize::try_from(last).ok()?.min(extent.checked_sub(1)?);
+            let first = usize::try_from(first.max(0)).ok()?;
+            (first <= last).then_some([first, last])
+        };
+        match (within(x, self.width), within(y, self.height)) {
+            (Some(x), Some(y)) => Ok(Bounds { x, y }),
+            _ => Err(Dropped::NoSample),
+        }
+    }
+}
+
+/// Twice the signed area, in (1/256 pixel)², positive when the corners turn right with y down.
+fn area([a, b, c]: [[i32; 2]; 3]) -> i64 {
+    let [abx, aby] = [b[0] - a[0], b[1] - a[1]].map(i64::from);
+    let [acx, acy] = [c[0] - a[0], c[1] - a[1]].map(i64::from);
+    abx * acy - aby * acx
+}
+
+/// Twice the signed area of the unsnapped corners, in pixels², y up.
+pub(super) fn window_area([a, b, c]: &[WindowVertex; 3]) -> f64 {
+    let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
+    d(b.x, a.x) * d(c.y, a.y) - d(b.y, a.y) * d(c.x, a.x)
+}

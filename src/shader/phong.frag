@@ -1,0 +1,32 @@
+#version 330
+
+uniform vec3 u_cam_pos;
+uniform vec3 u_color;
+uniform vec3 u_light_pos;
+uniform vec3 u_light_intensity;
+uniform float u_ka;
+uniform float u_kd;
+uniform float u_ks;
+uniform float u_shininess;
+
+in vec3 v_position;
+in vec3 v_normal;
+
+out vec4 out_color;
+
+vec3 blinn_phong(vec3 v_position, vec3 n) {
+    vec3 to_light = u_light_pos - v_position;
+    float r2 = dot(to_light, to_light);
+    vec3 l = normalize(to_light);
+    vec3 v = normalize(u_cam_pos - v_position);
+    vec3 h = normalize(l + v);
+    vec3 irradiance = u_light_intensity * (1.0 / r2);
+    vec3 diffuse = u_color * irradiance * (u_kd * max(0.0, dot(n, l)));
+    vec3 specular = irradiance * (u_ks * pow(max(0.0, dot(n, h)), u_shininess));
+    return vec3(u_ka) + diffuse + specular;
+}
+
+void main() {
+    vec3 n = normalize(v_normal);
+    out_color = vec4(blinn_phong(v_position, n), 1.0);
+}

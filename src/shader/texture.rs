@@ -1,0 +1,18 @@
+//! `texture`: the colour texture alone.
+
+use super::{
+    Uniforms,
+    glsl::Vec3,
+    sampler::{Sampler2d, texture},
+};
+use crate::lanes::Lane;
+
+pub use super::default::uv as vertex;
+
+/// `texture.frag`
+pub fn fragment<L: Lane>(
+    _u: &Uniforms,
+    u_texture_1: Sampler2d<'_>,
+) -> impl Fn(&[L; 2]) -> Vec3<L> + use<'_, L> {
+    move |&[s, t]| texture(u_texture_1, s, t)
+}

@@ -1,0 +1,128 @@
+//! A picture to sample from: decoded once, then a plain array of texels.
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+
+use crate::error::{Error, Kind, Result};
+
+/// Longest side of a texture, texels.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// Most texels of a texture: 2^26, one gibibyte once decoded. A few kilobytes of compressed file
+/// can ask for far more, so the header is held against this before anything is allocated.
+pub const MAX_TEXELS: u64 = 1 << 26;
+
+/// Most bytes a decoder may hold: [`MAX_TEXELS`] of RGBA at 16 bits, and as much again for its work.
+const MAX_DECODER_BYTES: u64 = 16 * MAX_TEXELS;
+
+/// A picture of `width` × `height` texels. The first row is the top one (v = 0 in texture space).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; 4]>,
+}
+
+impl Texture {
+    /// Decodes a PNG or JPEG of at most [`MAX_SIDE`] a side and [`MAX_TEXELS`] in all.
+    ///
+    /// Every sample becomes c / 255 (or c / 65535 at 16 bits), rounded once to `f32`. Grey fills
+    /// all three channels. Alpha, gamma, colour profiles and Exif rotation are left out. A JPEG has
+    /// no checksum, so damage inside its coded data can pass for a picture.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`], with `name` in the message, if the bytes are of another format, too large,
+    /// corrupt or cut short.
+    pub fn decode(name: &str, bytes: &[u8]) -> Result<Self> {
+        let invalid = |why: &dyn std::fmt::Display| {
+            Error::new(Kind::Scene, format!("texture {name} cannot be decoded: {why}")).with_help(format!(
+                "a texture is a PNG or JPEG of at most {MAX_SIDE} a side and {MAX_TEXELS} texels"
+            ))
+        };
+        let mut reader = ImageReader::new(Cursor::new(bytes));
+        match image::guess_format(bytes) {
+            Ok(ImageFormat::Png) if !png_ends(bytes) => return Err(invalid(&"the PNG is cut short")),
+            Ok(ImageFormat::Jpeg) if !jpeg_ends(bytes) => return Err(invalid(&"the JPEG is cut short")),
+            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => reader.set_format(format),
+            _ => return Err(invalid(&"it is neither a PNG nor a JPEG")),
+        }
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(MAX_DECODER_BYTES);
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
+        let (width, height) = decoder.dimensions();
+        if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_TEXELS {
+            return Err(invalid(&format_args!("{width} x {height} is too large")));
+        }
+        let image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
+        Ok(Self::from_image(image))
+    }
+
+    /// Eight bits widen to sixteen as 257 c, and 257 c / 65535 = c / 255: nothing is rounded twice.
+    fn from_image(image: DynamicImage) -> Self {
+        let image = image.into_rgb16();
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let unit = |sample: u16| f32::from(sample) / 65535.0;
+        let texels = image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]).collect();
+        Self { width, height, texels }
+    }
+
+    /// A texture of `width` × `height` from RGB in 0..=1, row by row from the top.
+    ///
+    /// # Errors
+    /// [`Kind::Internal`] if a side is 0 or `rgb` does not hold `width * height` texels.
+    pub fn from_rgb(width: usize, height: usize, rgb: &[[f32; 3]]) -> Result<Self> {
+        if rgb.is_empty() || width.checked_mul(height) != Some(rgb.len()) {
+            let message = format!("a texture of {width} x {height} from {} texels", rgb.len());
+            return Err(Error::new(Kind::Internal, message));
+        }
+        Ok(Self { width, height, texels: rgb.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect() })
+    }
+
+    /// Texels in a row, at least 1.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows, at least 1.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Red, green, blue in 0..=1 and a fourth number that is always 1, of column `x` from the left
+    /// and row `y` from the top.
+    ///
+    /// # Panics
+    /// If `y` is not below the height, or `x` leads past the last texel.
+    pub fn texel(&self, x: usize, y: usize) -> [f32; 4] {
+        debug_assert!(x < self.width, "column {x} of {}", self.width);
+        self.texels[y * self.width + x]
+    }
+
+    /// All texels, row by row from the top.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+}
+
+/// Whether a PNG holds its last chunk, IEND with its checksum. The decoder does not ask for it.
+fn png_ends(bytes: &[u8]) -> bool {
+    bytes.windows(8).rev().any(|window| window == b"IEND\xAE\x42\x60\x82")
+}
+
+/// Whether a JPEG reaches its end-of-image marker (ITU-T T.81, annex B). The decoder would fill
+/// the missing rest with grey. Segments are stepped over, since a thumbnail in one has its own end.
+fn jpeg_ends(bytes: &[u8]) -> bool {
+    let mut rest = bytes.get(2..).unwrap_or_default();
+    let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0x00 | 0xD0..=0xD7 | 0xFF);
+    while let Some(at) = rest.windows(2).position(is_marker) {
+        if rest[at + 1] == 0xD9 {
+            return true;
+        }
+        rest = &rest[at + 2..];
+        let length = rest.first_chunk().map_or(rest.len(), |&two| usize::from(u16::from_be_bytes(two)));
+        rest = rest.get(length..).unwrap_or_default();
+    }
+    false
+}

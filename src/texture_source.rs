@@ -1,0 +1,141 @@
+//! Where textures come from: the set inside the program, or a folder of one's own.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+use crate::cubemap::{Cubemap, FACES};
+use crate::error::{Error, Kind, Result};
+use crate::texture::Texture;
+
+/// Endings that are tried in a folder, in this order.
+const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
+
+/// Largest texture file, bytes.
+const MAX_FILE_BYTES: u64 = 1 << 29;
+
+/// Most names of a folder that an error lists.
+const MAX_LISTED: usize = 20;
+
+/// A built-in file: its name and its bytes.
+macro_rules! built_in {
+    ($($name:literal),*) => {
+        [$(($name, include_bytes!(concat!("../textures/", $name, ".png")).as_slice())),*]
+    };
+}
+
+const TEXTURES: [(&str, &[u8]); 4] = built_in!["texture_1", "texture_2", "texture_3", "texture_4"];
+
+/// Faces of the built-in cube map, in the order of [`FACES`].
+const CUBE: [(&str, &[u8]); 6] =
+    built_in!["cube/posx", "cube/negx", "cube/posy", "cube/negy", "cube/posz", "cube/negz"];
+
+/// Where textures are looked for. Only what is asked for is opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TextureSource {
+    /// The set inside the program: `texture_1` (a sunset), `texture_2` (the height of a stone wall),
+    /// `texture_3` (a plaid), `texture_4` (a grid for texture coordinates) and the cube map `cube`.
+    BuiltIn,
+    /// A folder. `NAME.png`, else `NAME.jpg`, else `NAME.jpeg` is the texture called NAME, and a
+    /// folder NAME in it with such files for `posx`, `negx`, `posy`, `negy`, `posz` and `negz` is
+    /// the cube map called NAME.
+    Folder(PathBuf),
+}
+
+impl TextureSource {
+    /// The texture called `name`.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] if there is none or it cannot be decoded; [`Kind::Io`] if it cannot be read.
+    pub fn texture(&self, name: &str) -> Result<Texture> {
+        match self {
+            Self::BuiltIn => built_in_texture(name),
+            Self::Folder(folder) => {
+                check_name(name)?;
+                read_texture(folder, name)
+            }
+        }
+    }
+
+    /// The cube map called `name`.
+    ///
+    /// # Errors
+    /// As [`texture`](Self::texture) for each face, and [`Kind::Scene`] if the faces do not fit.
+    pub fn cubemap(&self, name: &str) -> Result<Cubemap> {
+        let [px, nx, py, ny, pz, nz] = match self {
+            Self::BuiltIn if name == "cube" => CUBE.map(|(face, bytes)| Texture::decode(face, bytes)),
+            Self::BuiltIn => return Err(unknown("cube map", name, "cube")),
+            Self::Folder(folder) => {
+                check_name(name)?;
+                FACES.map(|face| read_texture(&folder.join(name), face))
+            }
+        };
+        Cubemap::new(name, [px?, nx?, py?, ny?, pz?, nz?])
+    }
+}
+
+fn built_in_texture(name: &str) -> Result<Texture> {
+    match TEXTURES.iter().find(|(known, _)| *known == name) {
+        Some((_, bytes)) => Texture::decode(name, bytes),
+        None => Err(unknown("texture", name, &TEXTURES.map(|(known, _)| known).join(", "))),
+    }
+}
+
+fn unknown(what: &str, name: &str, known: &str) -> Error {
+    Error::new(Kind::Scene, format!("there is no built-in {what} {name:?}"))
+        .with_help(format!("built in: {known}; others come from a folder"))
+}
+
+/// A name stands for one entry of the folder and may not lead out of it.
+fn check_name(name: &str) -> Result<()> {
+    let mut parts = Path::new(name).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(part)), None) if part == name => Ok(()),
+        _ => Err(Error::new(Kind::Scene, format!("{name:?} is not the name of a texture"))
+            .with_help("a name is a file name without folder and ending, such as texture_1")),
+    }
+}
+
+fn read_texture(folder: &Path, name: &str) -> Result<Texture> {
+    let files = ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
+    match files.iter().find(|file| file.is_file()) {
+        Some(file) => Texture::decode(&file.display().to_string(), &read(file)?),
+        None => Err(missing(folder, name)),
+    }
+}
+
+/// The bytes of a file. Reading stops at the bound, whatever length the file claims.
+fn read(file: &Path) -> Result<Vec<u8>> {
+    let failed = |why| Error::new(Kind::Io, format!("cannot read texture {}: {why}", file.display()));
+    let mut bytes = Vec::new();
+    let opened = File::open(file).map_err(failed)?;
+    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        let message = format!("texture {} is larger than {MAX_FILE_BYTES} bytes", file.display());
+        return Err(Error::new(Kind::Scene, message));
+    }
+    Ok(bytes)
+}
+
+fn missing(folder: &Path, name: &str) -> Error {
+    let [png, jpg, jpeg] = ENDINGS.map(|ending| format!("{name}.{ending}"));
+    let message =
+        format!("there is no texture {name} in {}: looked for {png}, {jpg} and {jpeg}", folder.display());
+    Error::new(Kind::Scene, message).with_help(holdings(folder))
+}
+
+/// One sentence that says what a folder holds.
+fn holdings(folder: &Path) -> String {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return "the folder does not exist or cannot be read".to_owned();
+    };
+    let mut names: Vec<_> = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    names.sort_unstable();
+    let more = names.len().saturating_sub(MAX_LISTED);
+    names.truncate(MAX_LISTED);
+    match (names.is_empty(), more) {
+        (true, _) => "the folder is empty".to_owned(),
+        (false, 0) => format!("the folder holds {}", names.join(", ")),
+        (false, _) => format!("the folder holds {} and {more} more", names.join(", ")),
+    }
+}
