@@ -30,6 +30,8 @@ pub trait Lane:
     fn splat(value: f32) -> Self;
     /// Lane i is `f(i)`.
     fn from_fn(f: impl FnMut(usize) -> f32) -> Self;
+    /// The same binary64 number in every lane.
+    fn splat_double(value: f64) -> Self::Double;
     /// Rounds binary64 lanes to this type.
     fn narrow(double: Self::Double) -> Self;
     /// Lane `index`, widened to binary64 (exact).
@@ -109,6 +111,10 @@ macro_rules! lanes {
                 f(0).into()
             }
             #[inline(always)]
+            fn splat_double(value: f64) -> f64 {
+                value
+            }
+            #[inline(always)]
             fn narrow(double: f64) -> Self {
                 double as $scalar
             }
@@ -145,6 +151,10 @@ macro_rules! lanes {
             #[inline(always)]
             fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
                 Self(std::array::from_fn(|i| f(i).into()))
+            }
+            #[inline(always)]
+            fn splat_double(value: f64) -> Wide<f64> {
+                Wide([value; WIDTH])
             }
             #[inline(always)]
             fn narrow(double: Wide<f64>) -> Self {

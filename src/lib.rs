@@ -3,13 +3,16 @@
 pub mod error;
 pub mod math;
 pub mod scene;
-
+pub mod cloth;
+mod dispatch;
+pub mod lanes;
+pub mod mesh;
+pub mod camera;
 pub mod texture;
-
 pub mod cubemap;
-
 pub mod texture_source;
-
+pub mod shader;
+pub mod raster;
+pub mod render;
 pub mod output;
-
 pub mod cli;

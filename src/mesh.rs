@@ -209,3 +209,47 @@ fn to_f32(value: f64) -> f32 {
 fn index(i: usize) -> u32 {
     i as u32
 }
+
+/// Kinds of springs to show as lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SpringKinds {
+    /// To the next point along a row or column.
+    pub structural: bool,
+    /// To the next point along a diagonal.
+    pub shearing: bool,
+    /// To the next but one along a row or column.
+    pub bending: bool,
+}
+
+impl SpringKinds {
+    /// The kinds that a cloth has.
+    pub fn of(cloth: &Cloth) -> Self {
+        Self {
+            structural: cloth.enable_structural,
+            shearing: cloth.enable_shearing,
+            bending: cloth.enable_bending,
+        }
+    }
+}
+
+/// The springs of a cloth as lines between its points, in the order in which they are created.
+pub fn spring_lines(cloth: &Cloth, kinds: SpringKinds) -> Vec<[u32; 2]> {
+    let (w, h) = (cloth.num_width_points, cloth.num_height_points);
+    let mut lines = Vec::new();
+    for j in 0..h {
+        for i in 0..w {
+            let mut add = |exists: bool, back: usize| {
+                if exists {
+                    lines.push([index(j * w + i), index(j * w + i - back)]);
+                }
+            };
+            add(kinds.structural && i >= 1, 1);
+            add(kinds.structural && j >= 1, w);
+            add(kinds.shearing && i >= 1 && j >= 1, w + 1);
+            add(kinds.shearing && i + 1 < w && j >= 1, w.wrapping_sub(1));
+            add(kinds.bending && i >= 2, 2);
+            add(kinds.bending && j >= 2, 2 * w);
+        }
+    }
+    lines
+}

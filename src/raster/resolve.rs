@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::{
     TileCost, TileScene,
     bin::{Handle, handle, place},
-    framebuffer::{TILE, TILE_PIXELS, Tile},
+    framebuffer::{TILE_PIXELS, Tile},
     line::draw_line,
     shade::{Fragment, Fragments},
     tile::{TileBounds, draw_triangle},

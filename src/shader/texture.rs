@@ -10,9 +10,9 @@ use crate::lanes::Lane;
 pub use super::default::uv as vertex;
 
 /// `texture.frag`
-pub fn fragment<L: Lane>(
+pub fn fragment<'a, L: Lane>(
     _u: &Uniforms,
-    u_texture_1: Sampler2d<'_>,
-) -> impl Fn(&[L; 2]) -> Vec3<L> + use<'_, L> {
+    u_texture_1: Sampler2d<'a>,
+) -> impl Fn(&[L; 2]) -> Vec3<L> + use<'a, L> {
     move |&[s, t]| texture(u_texture_1, s, t)
 }
