@@ -47,10 +47,10 @@ mod naive {
         l0: f64,
     }
 
-    pub struct Cloth<'a> {
+    pub(crate) struct Cloth<'a> {
         scene: &'a Scene,
-        pub x: Vec<V>,
-        pub last: Vec<V>,
+        pub(crate) x: Vec<V>,
+        pub(crate) last: Vec<V>,
         pinned: Vec<bool>,
         springs: Vec<Spring>,
         m: f64,
@@ -67,7 +67,7 @@ mod naive {
     }
 
     impl<'a> Cloth<'a> {
-        pub fn new(scene: &'a Scene) -> Self {
+        pub(crate) fn new(scene: &'a Scene) -> Self {
             let cloth = scene.cloth.as_ref().unwrap();
             let (w, h) = (cloth.num_width_points, cloth.num_height_points);
             let mut x = Vec::new();
@@ -110,7 +110,7 @@ mod naive {
             Cloth { scene, last: x.clone(), x, pinned, springs, m, a2: dt * dt / m, keep, t }
         }
 
-        pub fn step(&mut self) {
+        pub(crate) fn step(&mut self) {
             let f = self.forces();
             self.verlet(&f);
             if self.scene.sim.self_collision == SelfCollision::SameBox {
@@ -222,7 +222,7 @@ mod naive {
         }
 
         /// Whether all bits are those of `simulation`.
-        pub fn equals(&self, simulation: &Simulation) -> Result<(), String> {
+        pub(crate) fn equals(&self, simulation: &Simulation) -> Result<(), String> {
             for p in 0..self.x.len() {
                 let theirs = [simulation.positions().get(p), simulation.last_positions().get(p)];
                 for (ours, theirs) in [self.x[p], self.last[p]].into_iter().zip(theirs.map(triple)) {

@@ -8,7 +8,7 @@ use drape::scene::{
 };
 
 /// Every stock scene by name.
-pub fn stock() -> [(&'static str, Scene); 5] {
+pub(crate) fn stock() -> [(&'static str, Scene); 5] {
     [
         ("pinned2", pinned2()),
         ("pinned4", pinned4()),
@@ -19,17 +19,17 @@ pub fn stock() -> [(&'static str, Scene); 5] {
 }
 
 /// A cloth held at two corners of one side.
-pub fn pinned2() -> Scene {
+pub(crate) fn pinned2() -> Scene {
     with_cloth(Cloth { pinned: vec![[0, 0], [49, 0]], ..cloth() })
 }
 
 /// A cloth held at its four corners.
-pub fn pinned4() -> Scene {
+pub(crate) fn pinned4() -> Scene {
     with_cloth(Cloth { pinned: vec![[0, 0], [0, 49], [49, 0], [49, 49]], ..cloth() })
 }
 
 /// A cloth that falls on a ball.
-pub fn sphere() -> Scene {
+pub(crate) fn sphere() -> Scene {
     let mut scene = with_cloth(cloth());
     let origin = Vec3::new(0.5, 0.2, 0.5);
     let resolution = [40, 40];
@@ -38,21 +38,21 @@ pub fn sphere() -> Scene {
 }
 
 /// A cloth that falls flat on the floor.
-pub fn plane() -> Scene {
+pub(crate) fn plane() -> Scene {
     let mut scene = with_cloth(cloth());
     scene.planes.push(floor());
     scene
 }
 
 /// An upright cloth that falls on itself.
-pub fn self_collision() -> Scene {
+pub(crate) fn self_collision() -> Scene {
     let mut scene = with_cloth(Cloth { orientation: Orientation::Vertical, ..cloth() });
     scene.planes.push(floor());
     scene
 }
 
 /// The stock cloth, held nowhere.
-pub fn cloth() -> Cloth {
+pub(crate) fn cloth() -> Cloth {
     Cloth {
         width: 1.0,
         height: 1.0,
@@ -72,12 +72,12 @@ pub fn cloth() -> Cloth {
 }
 
 /// The stock floor.
-pub fn floor() -> Plane {
+pub(crate) fn floor() -> Plane {
     Plane { point: Vec3::zeros(), normal: Vec3::new(0.0, 1.0, 0.0), friction: 0.5, material: material() }
 }
 
 /// A scene of `cloth` and nothing else.
-pub fn with_cloth(cloth: Cloth) -> Scene {
+pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
     Scene {
         cloth: Some(cloth),
         planes: Vec::new(),
@@ -120,7 +120,7 @@ pub fn with_cloth(cloth: Cloth) -> Scene {
 }
 
 /// Any material: the simulation does not read it.
-pub fn material() -> Material {
+pub(crate) fn material() -> Material {
     Material {
         shader: Shader::Phong,
         color: Vec3::repeat(1.0),
