@@ -4,6 +4,7 @@ pub mod error;
 pub mod math;
 pub mod scene;
 pub mod cloth;
+pub mod simulation;
 mod dispatch;
 pub mod lanes;
 pub mod mesh;
