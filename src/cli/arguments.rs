@@ -6,8 +6,8 @@ use clap::builder::RangedU64ValueParser;
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
-use super::compare;
-use super::ui::{self, Color, Ui};
+use super::ui::{Color, Ui};
+use super::{check, compare, export, info, render, simulate};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -17,6 +17,13 @@ use crate::output::atomic;
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
+    #[command(flatten, next_help_heading = "Global options")]
+    global: Global,
+}
+
+/// What holds for every command.
+#[derive(clap::Args)]
+struct Global {
     /// Threads to use, 1 to 1024 (default: all cores); the results are the same bytes for every number
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
@@ -37,20 +44,34 @@ pub(super) struct Arguments {
 /// What to do.
 #[derive(Subcommand)]
 pub(super) enum Command {
+    /// Simulate a scene and draw one picture of it
+    Render(render::Args),
+    /// Simulate a scene without drawing it
+    Simulate(simulate::Args),
+    /// Write the simulated cloth as a mesh (OBJ)
+    Export(export::Args),
     /// Tell how two pictures, or the pictures of two folders, differ
     Compare(compare::Args),
+    /// Tell what a scene needs and what is therefore left out
+    Info(info::Args),
+    /// Tell everything that is wrong in scene files
+    Check(check::Args),
 }
 
 impl Arguments {
     /// How to speak on standard error.
     pub(super) fn ui(&self) -> Ui {
-        let color = self.color.applies(ui::stderr_is_terminal());
-        Ui { json: self.json, quiet: self.quiet, verbose: self.verbose, color }
+        Ui {
+            json: self.global.json,
+            quiet: self.global.quiet,
+            verbose: self.global.verbose,
+            color: self.global.color,
+        }
     }
 
     /// The number of threads; 0 stands for all cores.
     pub(super) fn threads(&self) -> usize {
-        self.threads.unwrap_or(0)
+        self.global.threads.unwrap_or(0)
     }
 }
 
@@ -67,5 +88,5 @@ pub(super) fn refuse(refusal: &clap::Error) -> Result<()> {
     let text = refusal.render().to_string();
     let (message, rest) = text.split_once("\n\n").unwrap_or((&text, ""));
     let message = message.strip_prefix("error: ").unwrap_or(message);
-    Err(Error::new(Kind::Usage, message.trim()).with_help(rest.trim()))
+    Err(Error::new(Kind::Usage, message.trim()).with_help(rest.trim().replace("\n\n", "\n")))
 }

@@ -3,15 +3,24 @@
 //! Standard output carries the result that was asked for and nothing else; everything else goes
 //! to standard error. The exit code is that of the error's [`Kind`].
 
+mod advance;
 mod arguments;
+mod bench;
+mod check;
 mod compare;
+mod counts;
+mod export;
 mod guard;
+mod info;
+mod look;
 mod outputs;
 mod progress;
+mod render;
+mod scene;
 mod signals;
+mod simulate;
 mod ui;
 
-use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -32,9 +41,11 @@ struct Session {
 impl Session {
     /// Prints a result: as JSON if asked for, else as text.
     fn print(&self, value: &impl Serialize, text: &str) -> Result<()> {
-        if !self.ui.json {
-            return atomic::write_stdout(text.as_bytes());
-        }
+        if self.ui.json { self.print_json(value) } else { atomic::write_stdout(text.as_bytes()) }
+    }
+
+    /// Prints a result that is always JSON: one object on one line.
+    fn print_json(&self, value: &impl Serialize) -> Result<()> {
         let json = serde_json::to_string(value)
             .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
         atomic::write_stdout((json + "\n").as_bytes())
@@ -72,6 +83,11 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
             .with_help("ask for fewer with --threads")
     })?;
     match &arguments.command {
+        Command::Render(args) => render::run(args, &session),
+        Command::Simulate(args) => simulate::run(args, &session),
+        Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
+        Command::Info(args) => info::run(args, &session),
+        Command::Check(args) => check::run(args, &session),
     }
 }

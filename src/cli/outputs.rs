@@ -33,6 +33,32 @@ pub(super) fn takes_stdout(outputs: &[&Option<PathBuf>]) -> bool {
     outputs.iter().filter_map(|path| path.as_deref()).any(atomic::is_stdout)
 }
 
+/// Checks that standard output is not asked to carry bytes and text at once.
+///
+/// # Errors
+/// [`Kind::Usage`] if it is.
+pub(super) fn check_stdout(bytes: bool, text: bool) -> Result<()> {
+    if bytes && text {
+        return Err(Error::new(Kind::Usage, "standard output cannot carry a file and a report")
+            .with_help("name a file instead of `-`"));
+    }
+    Ok(())
+}
+
+/// Checks that a file name does not promise another format than `ending`.
+///
+/// # Errors
+/// [`Kind::Usage`] if it does.
+pub(super) fn check_ending(path: &Path, ending: &str) -> Result<()> {
+    match path.extension() {
+        Some(other) if !other.eq_ignore_ascii_case(ending) => {
+            let message = format!("`{}` does not end in .{ending}", path.display());
+            Err(Error::new(Kind::Usage, message).with_help(format!("only .{ending} files are written here")))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// A path that two names of one file share, if the file or its folder is there.
 fn identity(path: &Path) -> PathBuf {
     let in_folder = || {

@@ -35,14 +35,14 @@ pub(super) struct Ui {
     pub(super) quiet: bool,
     /// Remarks on what is done.
     pub(super) verbose: bool,
-    /// Colour on standard error.
-    pub(super) color: bool,
+    /// When to colour.
+    pub(super) color: Color,
 }
 
 impl Ui {
     /// What is known before the arguments are read: whether `--json` is among them.
     pub(super) fn before_parsing(json: bool) -> Self {
-        Self { json, quiet: false, verbose: false, color: Color::Auto.applies(stderr_is_terminal()) }
+        Self { json, quiet: false, verbose: false, color: Color::Auto }
     }
 
     /// A remark for those who asked (`-v`).
@@ -87,20 +87,24 @@ impl Ui {
         }
         let mut text = blocks.join("\n\n");
         if !error.help.is_empty() {
-            text += &format!("\n  = help: {}", error.help);
+            text += &format!("\n  = help: {}", error.help.replace('\n', "\n          "));
         }
         text
     }
 
-    /// Colours the word before the first colon.
-    pub(super) fn paint(&self, text: &str) -> String {
-        match text.split_once(':') {
-            Some((word, rest)) if self.color => {
-                let color = if word.starts_with("error") { "\x1b[1;31m" } else { "\x1b[1;33m" };
-                format!("{color}{word}\x1b[0m:{rest}")
-            }
-            _ => text.to_owned(),
+    fn paint(&self, text: &str) -> String {
+        paint(text, self.color.applies(stderr_is_terminal()))
+    }
+}
+
+/// Colours, if asked to, the word before the first colon of a message.
+pub(super) fn paint(text: &str, colored: bool) -> String {
+    match text.split_once(':') {
+        Some((word, rest)) if colored => {
+            let color = if word.starts_with("error") { "\x1b[1;31m" } else { "\x1b[1;33m" };
+            format!("{color}{word}\x1b[0m:{rest}")
         }
+        _ => text.to_owned(),
     }
 }
 
@@ -142,7 +146,7 @@ fn kind_name(kind: Kind) -> &'static str {
 mod tests {
     use super::*;
 
-    const PLAIN: Ui = Ui { json: false, quiet: false, verbose: false, color: false };
+    const PLAIN: Ui = Ui { json: false, quiet: false, verbose: false, color: Color::Never };
 
     fn diagnostic(message: &str) -> Diagnostic {
         Diagnostic {
@@ -170,9 +174,9 @@ mod tests {
     fn an_error_shows_its_help_and_colour_only_when_asked() {
         let error = Error::new(Kind::Io, "no: luck").with_help("try again");
         assert_eq!(PLAIN.pretty(&error), "error: no: luck\n  = help: try again");
-        let colored = Ui { color: true, ..PLAIN }.pretty(&error);
+        let colored = Ui { color: Color::Always, ..PLAIN }.pretty(&error);
         assert_eq!(colored, "\x1b[1;31merror\x1b[0m: no: luck\n  = help: try again");
-        assert_eq!(Ui { color: true, ..PLAIN }.paint("warning[x]: y"), "\x1b[1;33mwarning[x]\x1b[0m: y");
+        assert_eq!(paint("warning[x]: y", true), "\x1b[1;33mwarning[x]\x1b[0m: y");
     }
 
     #[test]

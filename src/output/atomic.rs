@@ -147,7 +147,7 @@ fn failed(path: &Path, cause: &io::Error) -> Error {
         return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
     }
     let error = Error::new(Kind::Io, format!("cannot write `{}`: {cause}", path.display()));
-    if cause.kind() == io::ErrorKind::NotFound {
+    if !is_stdout(path) && !folder(path).exists() {
         return error.with_help(format!("the folder `{}` does not exist", folder(path).display()));
     }
     error

@@ -1,6 +1,6 @@
 //! Wavefront OBJ: a triangle mesh as text.
 
-use std::fmt::{Display, Write};
+use std::fmt::Write;
 
 use crate::error::{Error, Kind, Result};
 
@@ -10,10 +10,10 @@ use crate::error::{Error, Kind, Result};
 ///
 /// # Errors
 /// [`Kind::Internal`] when the slices differ in length or a face names no vertex.
-pub fn encode<T: Display>(
-    positions: &[[T; 3]],
-    uv: &[[T; 2]],
-    normals: &[[T; 3]],
+pub fn encode(
+    positions: &[[f64; 3]],
+    uv: &[[f32; 2]],
+    normals: &[[f32; 3]],
     faces: &[[u32; 3]],
 ) -> Result<String> {
     let count = positions.len();
@@ -59,24 +59,24 @@ mod tests {
 
     proptest! {
         #[test]
-        fn numbers_read_back_bit_for_bit(bits in any::<[u64; 3]>()) {
-            let point = bits.map(f64::from_bits);
-            prop_assume!(point.iter().all(|c| c.is_finite()));
-            let text = encode(&[point], &[[0.0, 0.0]], &[point], &[]).unwrap();
-            let read = |line: &str| -> Vec<u64> {
-                line.split(' ').skip(1).map(|n| n.parse::<f64>().unwrap().to_bits()).collect()
-            };
-            prop_assert_eq!(read(text.lines().next().unwrap()), bits);
-            prop_assert_eq!(read(text.lines().nth(2).unwrap()), bits);
+        fn numbers_read_back_bit_for_bit(wide in any::<[u64; 3]>(), narrow in any::<[u32; 3]>()) {
+            let (point, normal) = (wide.map(f64::from_bits), narrow.map(f32::from_bits));
+            prop_assume!(point.iter().all(|c| c.is_finite()) && normal.iter().all(|c| c.is_finite()));
+            let text = encode(&[point], &[[normal[0], normal[1]]], &[normal], &[]).unwrap();
+            let mut lines = text.lines().map(|line| line.split(' ').skip(1));
+            let position: Vec<u64> = lines.next().unwrap().map(|n| n.parse::<f64>().unwrap().to_bits()).collect();
+            let others: Vec<u32> = lines.flatten().map(|n| n.parse::<f32>().unwrap().to_bits()).collect();
+            prop_assert_eq!(position, wide);
+            prop_assert_eq!(others, [&narrow[..2], &narrow].concat());
         }
     }
 
     #[test]
     fn meshes_that_do_not_fit_together_are_refused() {
-        let (p, t) = ([[0.0; 3]; 2], [[0.0; 2]; 2]);
-        assert!(encode(&p, &t, &p, &[[0, 1, 1]]).is_ok());
-        assert!(encode(&p, &t, &p, &[[0, 1, 2]]).is_err());
-        assert!(encode(&p, &t[..1], &p, &[]).is_err());
-        assert!(encode(&p, &t, &p[..1], &[]).is_err());
+        let (p, t, n) = ([[0.0; 3]; 2], [[0.0; 2]; 2], [[0.0; 3]; 2]);
+        assert!(encode(&p, &t, &n, &[[0, 1, 1]]).is_ok());
+        assert!(encode(&p, &t, &n, &[[0, 1, 2]]).is_err());
+        assert!(encode(&p, &t[..1], &n, &[]).is_err());
+        assert!(encode(&p, &t, &n[..1], &[]).is_err());
     }
 }
