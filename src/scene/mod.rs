@@ -3,7 +3,26 @@
 //! Data flows `text -> format -> load (diagnostics) -> Scene -> Plan`. A [`Scene`] exists only
 //! when every value in it is finite and in range, so nothing further down checks input again.
 
+mod checks;
+mod fields;
+mod format;
+mod load;
+mod names;
+mod nearest;
+mod patch;
+mod plan;
+mod range;
+mod reader;
+mod render;
+mod report;
+mod rule;
+mod source;
+
 use nalgebra::Vector3;
+
+pub use checks::{MAX_OBJECTS, MAX_POINTS};
+pub use load::{Loaded, MAX_FILE, Overrides, load, load_text};
+pub use plan::{Item, Needs, ObjectPlan, Plan};
 
 /// A point or direction in metres, world space, y up.
 pub type Vec3 = Vector3<f64>;

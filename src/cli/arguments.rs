@@ -1,0 +1,92 @@
+//! The grammar of the command line.
+
+use std::io::{self, IsTerminal};
+
+use clap::builder::RangedU64ValueParser;
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand};
+
+use super::ui::{Color, Ui};
+use super::{check, compare, export, info, render, simulate};
+use crate::error::{Error, Kind, Result};
+use crate::output::atomic;
+
+/// A reference cloth simulator and the software rasteriser that shows it.
+#[derive(Parser)]
+#[command(name = "drape", version, max_term_width = 100, disable_help_subcommand = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+    #[command(flatten, next_help_heading = "Global options")]
+    global: Global,
+}
+
+/// What holds for every command.
+#[derive(clap::Args)]
+struct Global {
+    /// Threads to use, 1 to 1024 (default: all cores); the results are the same bytes for every number
+    #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
+    threads: Option<usize>,
+    /// Errors only on standard error
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say what is done and how long it took
+    #[arg(short, long, global = true)]
+    verbose: bool,
+    /// When to colour messages
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: Color,
+    /// Print the result as one JSON object, and errors as JSON on standard error
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+/// What to do.
+#[derive(Subcommand)]
+pub(super) enum Command {
+    /// Simulate a scene and draw one picture of it
+    Render(render::Args),
+    /// Simulate a scene without drawing it
+    Simulate(simulate::Args),
+    /// Write the simulated cloth as a mesh (OBJ)
+    Export(export::Args),
+    /// Tell how two pictures, or the pictures of two folders, differ
+    Compare(compare::Args),
+    /// Tell what a scene needs and what is therefore left out
+    Info(info::Args),
+    /// Tell everything that is wrong in scene files
+    Check(check::Args),
+}
+
+impl Arguments {
+    /// How to speak on standard error.
+    pub(super) fn ui(&self) -> Ui {
+        Ui {
+            json: self.global.json,
+            quiet: self.global.quiet,
+            verbose: self.global.verbose,
+            color: self.global.color,
+        }
+    }
+
+    /// The number of threads; 0 stands for all cores.
+    pub(super) fn threads(&self) -> usize {
+        self.global.threads.unwrap_or(0)
+    }
+}
+
+/// What to make of arguments that name no command: help and version go to standard output,
+/// anything else is an error of use.
+pub(super) fn refuse(refusal: &clap::Error) -> Result<()> {
+    if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        let text = refusal.render();
+        let colored = Color::Auto.applies(io::stdout().is_terminal());
+        return atomic::write_stdout(
+            if colored { text.ansi().to_string() } else { text.to_string() }.as_bytes(),
+        );
+    }
+    let text = refusal.render().to_string();
+    let (message, rest) = text.split_once("\n\n").unwrap_or((&text, ""));
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    Err(Error::new(Kind::Usage, message.trim()).with_help(rest.trim().replace("\n\n", "\n")))
+}

@@ -1,0 +1,48 @@
+//! `drape export`: the simulated cloth as a mesh.
+
+use std::path::{Path, PathBuf};
+
+use super::advance::{advance, start};
+use super::scene::{Moment, SceneArgs};
+use super::{Session, outputs};
+use crate::error::{Error, Kind, Result};
+use crate::mesh::{Mesh, Reads};
+use crate::output::atomic::{self, Content};
+use crate::output::obj;
+
+/// What `export` takes.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The mesh file to write (`-` = standard output)
+    #[arg(value_name = "OUT.obj")]
+    mesh: PathBuf,
+    #[command(flatten)]
+    moment: Moment,
+}
+
+/// Simulates and writes the mesh.
+pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let frames = args.moment.frame(&scene);
+    outputs::check_ending(&args.mesh, "obj")?;
+    outputs::check(&args.scene.inputs(), [(args.mesh.as_path(), Content::Text)])?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
+    };
+    let mut simulation = start(&scene, frames, args.moment.leniency.allow_unstable, session)?;
+    advance(&mut simulation, frames, session, |_| Ok(()))?;
+    let points = simulation.positions();
+    let mesh = Mesh::cloth(cloth, points, Reads { normal: true, uv: true, tangent: false });
+    // The simulation's own numbers, which the drawn mesh rounds.
+    let positions: Vec<[f64; 3]> = (0..points.len()).map(|i| points.get(i).into()).collect();
+    let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;
+    atomic::write(&args.mesh, text.as_bytes())?;
+    wrote(&args.mesh, session);
+    Ok(())
+}
+
+fn wrote(path: &Path, session: &Session) {
+    session.ui.remark(&format!("wrote {}", path.display()));
+}

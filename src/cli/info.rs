@@ -1,0 +1,175 @@
+//! `drape info`: what a scene needs and what is therefore left out.
+
+use serde::Serialize;
+
+use super::scene::{SceneArgs, frame_at};
+use super::{Session, counts};
+use crate::cloth::stability::Stability;
+use crate::error::Result;
+use crate::scene::{Cloth, Item, Plan, Scene};
+
+/// What `info` takes.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+}
+
+/// What is known of a scene without running it.
+#[derive(Serialize)]
+struct Info {
+    size: [u32; 2],
+    samples: u32,
+    fps: f64,
+    steps_per_frame: u32,
+    time: f64,
+    frames: u64,
+    cloth: Option<ClothInfo>,
+    planes: usize,
+    spheres: usize,
+    memory: Memory,
+    needs: Vec<Item>,
+}
+
+/// The size of the cloth and how its springs stand the step.
+#[derive(Serialize)]
+struct ClothInfo {
+    points: [usize; 2],
+    structural: usize,
+    shearing: usize,
+    bending: usize,
+    pinned: usize,
+    /// Mass of a point, kg.
+    mass: f64,
+    dt: f64,
+    dt_omega_rest: f64,
+    dt_omega_worst: f64,
+    dt_omega_limit: f64,
+    fewest_steps_rest: f64,
+    fewest_steps_worst: f64,
+    stable: &'static str,
+}
+
+/// The largest arrays, in bytes; a lower bound of what a run takes.
+#[derive(Serialize)]
+struct Memory {
+    cloth: u64,
+    picture: u64,
+}
+
+/// Prints what the scene needs.
+pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let info = Info::of(&scene)?;
+    session.print(&info, &info.text())
+}
+
+impl Info {
+    fn of(scene: &Scene) -> Result<Self> {
+        Ok(Self {
+            size: scene.render.size,
+            samples: scene.render.samples,
+            fps: scene.sim.fps,
+            steps_per_frame: scene.sim.steps_per_frame,
+            time: scene.render.time,
+            frames: frame_at(None, scene),
+            cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
+            planes: scene.planes.len(),
+            spheres: scene.spheres.len(),
+            memory: Memory::of(scene),
+            needs: Plan::of(scene).items,
+        })
+    }
+
+    fn text(&self) -> String {
+        let [width, height] = self.size;
+        let needs: String = self.needs.iter().map(need).collect();
+        format!(
+            "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
+             objects     planes {}, spheres {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+            self.samples,
+            self.time,
+            self.frames,
+            self.fps,
+            self.steps_per_frame,
+            self.cloth.as_ref().map_or_else(|| "cloth       none\n".to_owned(), ClothInfo::text),
+            self.planes,
+            self.spheres,
+            self.memory.cloth,
+            self.memory.picture,
+        )
+    }
+}
+
+impl ClothInfo {
+    fn of(cloth: &Cloth, scene: &Scene) -> Result<Self> {
+        let [structural, shearing, bending] = counts::springs(cloth);
+        let stability = Stability::new(cloth, &scene.sim)?;
+        let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = stability;
+        Ok(Self {
+            points: [cloth.num_width_points, cloth.num_height_points],
+            structural,
+            shearing,
+            bending,
+            pinned: cloth.pinned.len(),
+            mass,
+            dt,
+            dt_omega_rest: dt * omega_rest,
+            dt_omega_worst: dt * omega_safe,
+            dt_omega_limit: limit,
+            fewest_steps_rest: stability.fewest_steps(omega_rest),
+            fewest_steps_worst: stability.fewest_steps(omega_safe),
+            stable: verdict(&stability),
+        })
+    }
+
+    fn text(&self) -> String {
+        let [w, h] = self.points;
+        let Self { structural, shearing, bending, pinned, mass, dt, .. } = self;
+        format!(
+            "cloth       {w} x {h} = {} points, pinned {pinned}, {mass} kg each\n\
+             springs     {} = structural {structural}, shearing {shearing}, bending {bending}\n\
+             step        {dt} s, dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}: {}\n\
+             steps       at least {} per frame at rest, {} at worst\n",
+            w * h,
+            structural + shearing + bending,
+            self.dt_omega_rest,
+            self.dt_omega_worst,
+            self.dt_omega_limit,
+            self.stable,
+            self.fewest_steps_rest,
+            self.fewest_steps_worst,
+        )
+    }
+}
+
+fn verdict(stability: &Stability) -> &'static str {
+    if stability.is_always_stable() {
+        "stable"
+    } else if stability.is_unstable_at_rest() {
+        "unstable"
+    } else {
+        "stable at rest"
+    }
+}
+
+impl Memory {
+    fn of(scene: &Scene) -> Self {
+        // Three numbers each of the position, the last position and the force.
+        const POINT: usize = 3 * 3 * size_of::<f64>();
+        // Colour and depth of a sample.
+        const SAMPLE: usize = 4 * size_of::<f32>();
+        let cloth = scene.cloth.as_ref().map_or(0, |cloth| {
+            let springs: usize = counts::springs(cloth).iter().sum();
+            cloth.num_width_points * cloth.num_height_points * POINT + springs * size_of::<f64>()
+        });
+        let [width, height] = scene.render.size.map(u64::from);
+        let picture = width * height * u64::from(scene.render.samples) * SAMPLE as u64;
+        Self { cloth: cloth as u64, picture }
+    }
+}
+
+fn need(item: &Item) -> String {
+    let verdict = if item.needed { "needed  " } else { "left out" };
+    format!("{verdict}  {}: {}\n", item.name, item.reason)
+}

@@ -1,0 +1,78 @@
+//! How far long work is: a bar on a terminal, else at most a line every five seconds.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::ui::{self, Ui};
+
+/// Time between two lines where there is no terminal.
+const PAUSE: Duration = Duration::from_secs(5);
+
+/// The progress of work that is done in equal pieces.
+pub(super) struct Progress<'a> {
+    ui: &'a Ui,
+    what: &'static str,
+    total: u64,
+    bar: Option<ProgressBar>,
+    started: Instant,
+    told: Instant,
+}
+
+impl<'a> Progress<'a> {
+    /// Begins to show work called `what`, such as `simulating`, in `total` pieces.
+    pub(super) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
+        let now = Instant::now();
+        let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what, total));
+        Self { ui, what, total, bar, started: now, told: now }
+    }
+
+    /// Says that `done` pieces are done.
+    pub(super) fn set(&mut self, done: u64) {
+        if let Some(bar) = &self.bar {
+            bar.set_position(done);
+        } else if self.told.elapsed() >= PAUSE {
+            self.told = Instant::now();
+            self.ui.note(&line(self.what, done, self.total, self.started.elapsed()));
+        }
+    }
+}
+
+impl Drop for Progress<'_> {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar(what: &'static str, total: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+    // The template is a constant; should it not parse, the default style does as well.
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.with_message(what)
+}
+
+/// `done` of `total` and the seconds left if the rest goes as fast.
+fn line(what: &str, done: u64, total: u64, elapsed: Duration) -> String {
+    let left = total.saturating_sub(done);
+    #[expect(clippy::cast_precision_loss, reason = "an estimate for people")]
+    let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
+    format!("{what}: {done} of {total}, about {seconds:.0} s left")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_estimates_the_rest() {
+        assert_eq!(
+            line("simulating", 20, 80, Duration::from_secs(10)),
+            "simulating: 20 of 80, about 30 s left"
+        );
+        assert_eq!(line("x", 0, 0, Duration::ZERO), "x: 0 of 0, about 0 s left");
+    }
+}

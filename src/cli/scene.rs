@@ -1,0 +1,95 @@
+//! The scene that a command works on: its file, changes from outside, and the moment.
+
+use std::path::{Path, PathBuf};
+
+use super::Session;
+use crate::error::Result;
+use crate::scene::{self, Overrides, Scene};
+
+/// A scene file and changes to it.
+#[derive(clap::Args)]
+pub(super) struct SceneArgs {
+    /// The scene file (JSON)
+    #[arg(value_name = "SCENE")]
+    pub(super) path: PathBuf,
+    #[command(flatten)]
+    changes: Changes,
+}
+
+/// Changes to a scene from outside its file.
+#[derive(clap::Args)]
+pub(super) struct Changes {
+    /// Change the scene by a JSON merge patch (RFC 7396), repeatable; patches come before sets
+    #[arg(long = "patch", value_name = "FILE")]
+    patches: Vec<PathBuf>,
+    /// Change one value of the scene, such as cloth.ks=500, repeatable
+    #[arg(long = "set", value_name = "PATH=JSON")]
+    sets: Vec<String>,
+}
+
+impl SceneArgs {
+    /// The scene; its warnings are told.
+    pub(super) fn load(&self, session: &Session) -> Result<Scene> {
+        let loaded = scene::load(&self.path, &self.changes.overrides())?;
+        loaded.warnings.iter().for_each(|warning| session.ui.warn(warning));
+        Ok(loaded.scene)
+    }
+
+    /// Every file that is read.
+    pub(super) fn inputs(&self) -> Vec<&Path> {
+        [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()
+    }
+}
+
+impl Changes {
+    /// The changes as the loader takes them.
+    pub(super) fn overrides(&self) -> Overrides {
+        Overrides { patches: self.patches.clone(), sets: self.sets.clone() }
+    }
+}
+
+/// A moment of the simulation.
+#[derive(clap::Args)]
+pub(super) struct Moment {
+    /// Simulated time in seconds, rounded to a frame (default: the scene's render.time)
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]
+    time: Option<f64>,
+    /// Frame number; 0 is the start
+    #[arg(long, value_name = "N")]
+    frame: Option<u64>,
+    #[command(flatten)]
+    pub(super) leniency: Leniency,
+}
+
+/// What is let pass.
+#[derive(clap::Args)]
+pub(super) struct Leniency {
+    /// Simulate even a cloth whose steps are too large to be stable
+    #[arg(long)]
+    pub(super) allow_unstable: bool,
+}
+
+impl Moment {
+    /// The number of the frame in `scene`.
+    pub(super) fn frame(&self, scene: &Scene) -> u64 {
+        self.frame.unwrap_or_else(|| frame_at(self.time, scene))
+    }
+}
+
+/// The frame nearest to `time`, or to the scene's own time, in seconds.
+pub(super) fn frame_at(time: Option<f64>, scene: &Scene) -> u64 {
+    let frame = time.unwrap_or(scene.render.time) * scene.sim.fps;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most 1e6 s * 1e9 a second"
+    )]
+    let frame = frame.round() as u64;
+    frame
+}
+
+/// Reads a time with the bounds of `render.time`, in seconds.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|seconds| (0.0..=1e6).contains(seconds));
+    number.ok_or_else(|| "a time is a number of seconds from 0 to 1000000".to_owned())
+}

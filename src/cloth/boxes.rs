@@ -1,0 +1,227 @@
+//! The boxes of self-collision: which points share one, kept up to date from step to step.
+//!
+//! Space is divided into boxes of one size; point x lies in the box `floor(x / size)`, taken per
+//! axis. Few points change their box in a step, so each remembers bounds between which it surely
+//! stays, and only those that left them are looked at again.
+
+use std::mem;
+use std::ops::Range;
+
+use super::{Points, filled};
+use crate::error::Result;
+
+/// A box, as three integers.
+type Key = [i64; 3];
+
+/// The points of a cloth by box.
+#[derive(Clone, Debug)]
+pub(crate) struct Boxes {
+    /// The points' places along x, y and z.
+    axes: [Axis; 3],
+    /// The box of every point.
+    keys: Vec<Key>,
+    /// The points by box, and by index within a box.
+    order: Vec<usize>,
+    /// The boxes with two or more points, as ranges of `order`.
+    shared: Vec<Range<usize>>,
+    /// The points that changed their box.
+    changed: Vec<usize>,
+    /// Whether a point is one of `changed`.
+    is_changed: Vec<bool>,
+    /// Room for the next `order`.
+    next_order: Vec<usize>,
+}
+
+impl Boxes {
+    /// The boxes of the given size, in metres, of the points at `x`.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::Scene`] when they do not fit in memory.
+    pub(crate) fn new(size: [f64; 3], x: &Points) -> Result<Self> {
+        let [sx, sy, sz] = size;
+        let points = x.len();
+        let mut boxes = Self {
+            axes: [Axis::new(sx, points)?, Axis::new(sy, points)?, Axis::new(sz, points)?],
+            keys: filled(points, Key::default())?,
+            order: filled(points, 0)?,
+            shared: filled(points / 2, 0..0)?,
+            changed: filled(points, 0)?,
+            is_changed: filled(points, false)?,
+            next_order: filled(points, 0)?,
+        };
+        boxes.order.clear();
+        boxes.changed.clear();
+        (0..points).for_each(|p| boxes.place(p, x));
+        boxes.changed.extend(0..points);
+        boxes.reorder();
+        Ok(boxes)
+    }
+
+    /// How many boxes hold two or more points.
+    pub(crate) fn count(&self) -> usize {
+        self.shared.len()
+    }
+
+    /// The points of box `index` (below [`Boxes::count`]), in index order.
+    pub(crate) fn members(&self, index: usize) -> &[usize] {
+        &self.order[self.shared[index].clone()]
+    }
+
+    /// Puts every point into its box after the points moved to `x`.
+    pub(crate) fn update(&mut self, x: &Points) {
+        self.changed.clear();
+        for p in 0..x.len() {
+            if !self.surely_stays(p, x) {
+                let old = self.keys[p];
+                self.place(p, x);
+                if self.keys[p] != old {
+                    self.changed.push(p);
+                }
+            }
+        }
+        if !self.changed.is_empty() {
+            self.reorder();
+        }
+    }
+
+    /// Whether point `p` at `x` is surely in the box where it was.
+    fn surely_stays(&self, p: usize, x: &Points) -> bool {
+        let [ax, ay, az] = &self.axes;
+        ax.surely_holds(p, x.x[p]) & ay.surely_holds(p, x.y[p]) & az.surely_holds(p, x.z[p])
+    }
+
+    /// Finds the box of point `p` at `x`.
+    fn place(&mut self, p: usize, x: &Points) {
+        let [ax, ay, az] = &mut self.axes;
+        self.keys[p] = [ax.place(p, x.x[p]), ay.place(p, x.y[p]), az.place(p, x.z[p])];
+    }
+
+    /// Merges the points that changed their box into the rest of the order.
+    fn reorder(&mut self) {
+        let Self { keys, order, changed, is_changed, next_order, .. } = self;
+        changed.sort_unstable_by_key(|&p| (keys[p], p));
+        changed.iter().for_each(|&p| is_changed[p] = true);
+        let mut incoming = changed.iter().copied().peekable();
+        next_order.clear();
+        for p in order.drain(..).filter(|&p| !is_changed[p]) {
+            while let Some(q) = incoming.next_if(|&q| (keys[q], q) < (keys[p], p)) {
+                next_order.push(q);
+            }
+            next_order.push(p);
+        }
+        next_order.extend(incoming);
+        changed.iter().for_each(|&p| is_changed[p] = false);
+        mem::swap(order, next_order);
+        self.find_shared();
+    }
+
+    /// Finds the boxes with two or more points.
+    fn find_shared(&mut self) {
+        self.shared.clear();
+        let mut start = 0;
+        for members in self.order.chunk_by(|&p, &q| self.keys[p] == self.keys[q]) {
+            if members.len() > 1 {
+                self.shared.push(start..start + members.len());
+            }
+            start += members.len();
+        }
+    }
+}
+
+/// The points' places along one axis.
+#[derive(Clone, Debug)]
+struct Axis {
+    /// Box size, in metres.
+    size: f64,
+    /// Per point, the first place where it surely has its number, in metres.
+    lower: Vec<f64>,
+    /// Per point, the last place where it surely has its number, in metres.
+    upper: Vec<f64>,
+}
+
+impl Axis {
+    /// Room for the places of `points` points.
+    fn new(size: f64, points: usize) -> Result<Self> {
+        Ok(Self { size, lower: filled(points, 0.0)?, upper: filled(points, 0.0)? })
+    }
+
+    /// Whether point `p` at `x` surely has the number that it had.
+    fn surely_holds(&self, p: usize, x: f64) -> bool {
+        (self.lower[p] <= x) & (x <= self.upper[p])
+    }
+
+    /// The number of the place of point `p` at `x`: `floor(x / size)`.
+    ///
+    /// The bounds stay away from the border by thousands of times the rounding of the division
+    /// and of the bounds; where numbers are so large or so small that this cannot be said, the
+    /// bounds hold nothing and the number is taken anew in every step.
+    fn place(&mut self, p: usize, x: f64) -> i64 {
+        let floor = (x / self.size).floor();
+        let margin = 1e-12 * (floor.abs() + 1.0) * self.size;
+        let sure = margin > 1e-280;
+        self.lower[p] = if sure { floor * self.size + margin } else { f64::INFINITY };
+        self.upper[p] = (floor + 1.0) * self.size - margin;
+        number(floor)
+    }
+}
+
+/// A whole number as an integer; beyond ±2⁶³ the nearest there is.
+#[expect(clippy::cast_possible_truncation, reason = "a floor has no fraction, and saturation is meant")]
+fn number(floor: f64) -> i64 {
+    floor as i64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::splitmix64;
+
+    /// A number in -1..1 that depends on `index` alone.
+    fn noise(index: u64) -> f64 {
+        (splitmix64(index) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// The groups of two or more points that share a box, straight from the definition.
+    fn shared_boxes(size: [f64; 3], x: &Points) -> Vec<Vec<usize>> {
+        let mut groups = std::collections::BTreeMap::<[i64; 3], Vec<usize>>::new();
+        for p in 0..x.len() {
+            let at = x.get(p);
+            let key = [0, 1, 2].map(|c| (at[c] / size[c]).floor() as i64);
+            groups.entry(key).or_default().push(p);
+        }
+        groups.into_values().filter(|group| group.len() > 1).collect()
+    }
+
+    #[test]
+    fn updated_boxes_are_those_of_the_definition() {
+        let size = [0.06, 0.05, 0.06];
+        let mut x = Points::zeros(300).unwrap();
+        for p in 0..300 {
+            x.set(p, crate::scene::Vec3::new(0.06 * (p % 7) as f64, 0.0, 0.0));
+        }
+        let mut boxes = Boxes::new(size, &x).unwrap();
+        for step in 0..200_u64 {
+            for p in 0..x.len() {
+                let at = (step * 300 + p as u64) * 3;
+                x.x[p] += 0.004 * noise(at);
+                x.y[p] += 0.004 * noise(at + 1);
+                x.z[p] += 0.004 * noise(at + 2);
+            }
+            boxes.update(&x);
+            let found: Vec<_> = (0..boxes.count()).map(|index| boxes.members(index).to_vec()).collect();
+            assert_eq!(found, shared_boxes(size, &x), "step {step}");
+        }
+    }
+
+    #[test]
+    fn a_place_on_a_border_is_never_taken_for_sure() {
+        for x in [0.0, 0.06, -0.06, 0.18, 6e30, -6e30] {
+            let mut axis = Axis::new(0.06, 1).unwrap();
+            axis.place(0, x);
+            assert!(!axis.surely_holds(0, x), "{x}");
+        }
+        let mut axis = Axis::new(0.06, 1).unwrap();
+        assert_eq!(axis.place(0, -0.01), -1);
+        assert!(axis.surely_holds(0, -0.05) && !axis.surely_holds(0, 0.01), "box -1 ends at 0");
+    }
+}

@@ -1,0 +1,75 @@
+//! The objects: a point that went through a plane, or into a sphere, is put back on the surface,
+//! and friction takes away a part of the way from its last position to there.
+
+use super::grid::Pins;
+use super::{Counters, Points, dot, len};
+use crate::scene::{Plane, Scene, Sphere, Vec3};
+
+/// Height above a plane at which a point is put back, in metres.
+const SURFACE_OFFSET: f64 = 1e-4;
+
+/// The objects of a scene, ready for the step.
+#[derive(Clone, Debug)]
+pub(crate) struct Objects {
+    planes: Vec<Plane>,
+    spheres: Vec<Sphere>,
+}
+
+impl Objects {
+    /// The objects of `scene`, or none if it has none. The planes' normals become unit vectors.
+    pub(crate) fn new(scene: &Scene) -> Option<Self> {
+        let unit = |plane: &Plane| Plane { normal: plane.normal / len(plane.normal), ..plane.clone() };
+        let planes: Vec<Plane> = scene.planes.iter().map(unit).collect();
+        let spheres = scene.spheres.clone();
+        (!planes.is_empty() || !spheres.is_empty()).then_some(Self { planes, spheres })
+    }
+
+    /// Resolves the contacts of every unpinned point in index order: the planes, then the spheres.
+    pub(crate) fn collide(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
+        for p in pins.free.iter().cloned().flatten() {
+            let (mut point, last) = (x.get(p), last.get(p));
+            for plane in &self.planes {
+                if let Some(hit) = hit_plane(point, last, plane) {
+                    point = hit;
+                    counters.object_moves += 1;
+                }
+            }
+            for sphere in &self.spheres {
+                if let Some(hit) = hit_sphere(point, last, sphere) {
+                    point = hit;
+                    counters.object_moves += 1;
+                }
+            }
+            x.set(p, point);
+        }
+        counters.object_tests += pins.free_points() * (self.planes.len() + self.spheres.len()) as u64;
+    }
+}
+
+/// Where a point that moved from `last` to `x` ends after it met `plane` (unit normal), if it did.
+fn hit_plane(x: Vec3, last: Vec3, plane: &Plane) -> Option<Vec3> {
+    let dir = x - last;
+    let den = dot(dir, plane.normal);
+    if den == 0.0 {
+        return None;
+    }
+    let side = dot(last - plane.point, plane.normal);
+    let s = -side / den;
+    if !(0.0..=1.0).contains(&s) {
+        return None;
+    }
+    let offset = if side >= 0.0 { SURFACE_OFFSET } else { -SURFACE_OFFSET };
+    let target = last + dir * s + plane.normal * offset;
+    Some(last + (target - last) * (1.0 - plane.friction))
+}
+
+/// Where a point at `x` that came from `last` ends if it is inside `sphere`.
+fn hit_sphere(x: Vec3, last: Vec3, sphere: &Sphere) -> Option<Vec3> {
+    let e = x - sphere.origin;
+    let l = len(e);
+    if !(0.0 < l && l < sphere.radius) {
+        return None;
+    }
+    let target = sphere.origin + e * (sphere.radius / l);
+    Some(last + (target - last) * (1.0 - sphere.friction))
+}

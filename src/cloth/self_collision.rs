@@ -1,0 +1,126 @@
+//! Phase 3: points of one box that are closer than twice the thickness are moved apart.
+//!
+//! The boxes do not influence one another: a point is moved by the members of its own box only.
+//! So going box by box, and in index order within each, gives what index order over the whole
+//! cloth gives; and a box in which no two points are close at its turn is left as it is.
+
+use super::boxes::Boxes;
+use super::grid::{Grid, Pins};
+use super::{Counters, Points, dot};
+use crate::error::Result;
+use crate::scene::{Cloth, SelfCollision as Mode, Sim, Vec3};
+
+/// Just above 1: covers the rounding of a squared length, so that no close pair is overlooked.
+const MARGIN: f64 = 1.0 + 1e-12;
+
+/// Self-collision of a cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct SelfCollision {
+    /// Distance that two points keep, in metres: 2 · thickness.
+    distance: f64,
+    /// A squared distance that no closer pair exceeds, in m².
+    reach: f64,
+    /// Steps per frame.
+    steps_per_frame: f64,
+    /// The points by box.
+    boxes: Boxes,
+    /// The positions of one box's members.
+    positions: Points,
+}
+
+impl SelfCollision {
+    /// Self-collision of `cloth`, whose points start at `x`; none when it is off or the cloth has
+    /// no thickness.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::Scene`] when it does not fit in memory.
+    pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Option<Self>> {
+        let distance = 2.0 * cloth.thickness;
+        if sim.self_collision == Mode::Off || distance == 0.0 {
+            return Ok(None);
+        }
+        let bx = 3.0 * cloth.width / grid.width as f64;
+        let by = 3.0 * cloth.height / grid.height as f64;
+        Ok(Some(Self {
+            distance,
+            reach: distance * distance * MARGIN,
+            steps_per_frame: f64::from(sim.steps_per_frame),
+            boxes: Boxes::new([bx, by, bx.max(by)], x)?,
+            positions: Points::zeros(grid.len())?,
+        }))
+    }
+
+    /// Moves apart the close points of every box; pinned points stay.
+    pub(crate) fn apply(&mut self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
+        self.boxes.update(x);
+        for index in 0..self.boxes.count() {
+            let size = self.boxes.members(index).len();
+            self.gather(index, x);
+            counters.boxes_searched += 1;
+            counters.pairs_tested += (size * (size - 1) / 2) as u64;
+            if self.any_close(size) {
+                counters.self_collision_moves += self.move_apart(index, x, pins);
+            }
+        }
+    }
+
+    /// Copies the positions of the members of box `index`.
+    fn gather(&mut self, index: usize, x: &Points) {
+        for (to, &p) in self.boxes.members(index).iter().enumerate() {
+            self.positions.x[to] = x.x[p];
+            self.positions.y[to] = x.y[p];
+            self.positions.z[to] = x.z[p];
+        }
+    }
+
+    /// Whether two of the first `size` gathered positions may be too close.
+    ///
+    /// A pair that is too close never exceeds `reach`: its squared length is below (2 ·
+    /// thickness)² but for the rounding of two squares and a root, far less than [`MARGIN`].
+    fn any_close(&self, size: usize) -> bool {
+        let Points { x, y, z } = &self.positions;
+        (0..size).any(|p| {
+            let others = || p + 1..size;
+            let mut any = false;
+            for ((ox, oy), oz) in x[others()].iter().zip(&y[others()]).zip(&z[others()]) {
+                let (ex, ey, ez) = (x[p] - ox, y[p] - oy, z[p] - oz);
+                any |= ex * ex + ey * ey + ez * ez <= self.reach;
+            }
+            any
+        })
+    }
+
+    /// Moves the unpinned members of box `index` one after the other; how many moved.
+    fn move_apart(&mut self, index: usize, x: &mut Points, pins: &Pins) -> u64 {
+        let mut moved = 0;
+        for (at, &p) in self.boxes.members(index).iter().enumerate() {
+            if pins.pinned[p] {
+                continue;
+            }
+            if let Some(position) = self.corrected(at, self.boxes.members(index).len()) {
+                self.positions.set(at, position);
+                x.set(p, position);
+                moved += 1;
+            }
+        }
+        moved
+    }
+
+    /// Where the gathered point `at` belongs among the first `size`; nothing when it may stay.
+    fn corrected(&self, at: usize, size: usize) -> Option<Vec3> {
+        let position = self.positions.get(at);
+        let (mut sum, mut count) = (Vec3::zeros(), 0.0);
+        for other in 0..size {
+            let e = position - self.positions.get(other);
+            let square = dot(e, e);
+            if square <= self.reach {
+                let l = square.sqrt();
+                if 0.0 < l && l < self.distance {
+                    sum += e * ((self.distance - l) / l);
+                    count += 1.0;
+                }
+            }
+        }
+        (count > 0.0).then(|| position + sum * (1.0 / count / self.steps_per_frame))
+    }
+}

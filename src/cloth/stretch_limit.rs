@@ -1,0 +1,144 @@
+//! Phase 5: the stretch limit of Provot 1995. A spring that is too long is shortened to its limit
+//! by moving its ends, in creation order, each seeing what the one before it did.
+//!
+//! Most springs are not too long, so the springs of a block of points are first looked at all at
+//! once. That keeps every bit: the look comes right before the block's turn, so it sees the
+//! positions that the pass would see, and a pass that finds no spring too long moves nothing.
+
+use std::ops::Range;
+
+use super::grid::{Grid, Pins};
+use super::springs::{Family, Springs};
+use super::{Counters, Points, filled, len};
+use crate::error::Result;
+use crate::scene::Sim;
+
+/// Points in a block.
+const BLOCK: usize = 32;
+
+/// Just below 1: covers the rounding of a squared length, so that no long spring is overlooked.
+const MARGIN: f64 = 1.0 - 1e-12;
+
+/// The stretch limit of a cloth.
+#[derive(Clone, Debug)]
+pub(crate) struct StretchLimit {
+    /// Largest length of a spring over its rest length.
+    factor: f64,
+    /// Passes per step.
+    passes: u32,
+    /// Of each family and point, a squared length that every spring over the limit reaches, in m².
+    reach: Vec<Vec<f64>>,
+}
+
+impl StretchLimit {
+    /// The limit that `sim` sets to `springs`, or none.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::Scene`] when it does not fit in memory.
+    pub(crate) fn new(sim: &Sim, springs: &Springs) -> Result<Option<Self>> {
+        let Some(limit) = sim.stretch_limit else { return Ok(None) };
+        let factor = 1.0 + limit;
+        let mut reach = Vec::with_capacity(springs.families.len());
+        for family in &springs.families {
+            let mut squares = filled(family.rest.len(), 0.0)?;
+            for (square, rest) in squares.iter_mut().zip(&family.rest) {
+                *square = (factor * rest) * (factor * rest) * MARGIN;
+            }
+            reach.push(squares);
+        }
+        Ok(Some(Self { factor, passes: sim.stretch_passes, reach }))
+    }
+
+    /// Shortens the springs that are too long, in creation order.
+    pub(crate) fn apply(&self, x: &mut Points, springs: &Springs, pins: &Pins, counters: &mut Counters) {
+        let Grid { width, height } = springs.grid;
+        for _ in 0..self.passes {
+            for j in 0..height {
+                for start in (0..width).step_by(BLOCK) {
+                    let columns = start..(start + BLOCK).min(width);
+                    if self.any_long(x, springs, j, &columns) {
+                        self.shorten(x, springs, pins, j, columns, counters);
+                    }
+                }
+            }
+            counters.springs_checked += springs.len() as u64;
+        }
+    }
+
+    /// Whether a spring made by the points of row `j` and `columns` may be too long.
+    fn any_long(&self, x: &Points, springs: &Springs, j: usize, columns: &Range<usize>) -> bool {
+        springs.families.iter().zip(&self.reach).filter(|(family, _)| family.rows.contains(&j)).any(
+            |(family, reach)| {
+                let start = columns.start.max(family.columns.start);
+                let n = columns.end.min(family.columns.end).saturating_sub(start);
+                any_reaches(x, j * springs.grid.width + start, family.offset, n, reach)
+            },
+        )
+    }
+
+    /// Shortens the springs made by the points of row `j` and `columns`.
+    fn shorten(
+        &self,
+        x: &mut Points,
+        springs: &Springs,
+        pins: &Pins,
+        j: usize,
+        columns: Range<usize>,
+        counters: &mut Counters,
+    ) {
+        for i in columns {
+            for family in &springs.families {
+                if family.rows.contains(&j) && family.columns.contains(&i) {
+                    let moved = self.shorten_spring(x, family, pins, j * springs.grid.width + i);
+                    counters.springs_limited += u64::from(moved);
+                }
+            }
+        }
+    }
+
+    /// Shortens the spring of `family` that point `a` made; whether it was too long and could be.
+    fn shorten_spring(&self, x: &mut Points, family: &Family, pins: &Pins, a: usize) -> bool {
+        let b = a - family.offset;
+        let (from, to) = (x.get(a), x.get(b));
+        let e = to - from;
+        let l = len(e);
+        let max = self.factor * family.rest[a];
+        if l <= max {
+            return false;
+        }
+        let c = e * ((l - max) / l);
+        match (pins.pinned[a], pins.pinned[b]) {
+            (true, true) => return false,
+            (true, false) => x.set(b, to - c),
+            (false, true) => x.set(a, from + c),
+            (false, false) => {
+                x.set(a, from + c * 0.5);
+                x.set(b, to - c * 0.5);
+            }
+        }
+        true
+    }
+}
+
+/// Whether one of the `n` springs from the points at `a` to those `offset` before them reaches
+/// its squared length in `reach`.
+///
+/// A spring over its limit does: `sqrt(d) > max` after rounding makes d at least max² but for the
+/// rounding of two squares and a root, which is far below [`MARGIN`]; the comparison takes equal
+/// numbers in, for lengths whose squares are too small for a relative margin.
+fn any_reaches(x: &Points, a: usize, offset: usize, n: usize, reach: &[f64]) -> bool {
+    if n == 0 {
+        return false;
+    }
+    let b = a - offset;
+    let (ax, bx) = (&x.x[a..][..n], &x.x[b..][..n]);
+    let (ay, by) = (&x.y[a..][..n], &x.y[b..][..n]);
+    let (az, bz) = (&x.z[a..][..n], &x.z[b..][..n]);
+    let reach = &reach[a..][..n];
+    let mut any = false;
+    for i in 0..n {
+        let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
+        any |= ex * ex + ey * ey + ez * ez >= reach[i];
+    }
+    any
+}

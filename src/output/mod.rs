@@ -1,0 +1,9 @@
+//! What leaves the program: files that are whole or absent, pictures, meshes, raw numbers and
+//! the comparison of pictures.
+
+pub mod atomic;
+pub mod compare;
+pub mod html;
+pub mod obj;
+pub mod png;
+pub mod raw;

@@ -1,0 +1,165 @@
+//! What no key can be asked alone: relations between values of a scene.
+
+use std::collections::BTreeMap;
+
+use super::format::Node;
+use super::report::{Finding, Report};
+use super::source::Span;
+use super::{Cloth, Scene, SelfCollision};
+
+/// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
+pub const MAX_POINTS: usize = 1 << 22;
+
+/// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
+pub const MAX_OBJECTS: usize = 255;
+
+/// A scene that was read from `document`, under check.
+pub(super) struct Checks<'a> {
+    pub(super) report: &'a mut Report,
+    pub(super) document: &'a Node,
+    pub(super) scene: &'a Scene,
+}
+
+impl Checks<'_> {
+    /// Makes every check whose values were read without an error.
+    pub(super) fn run(mut self) {
+        if let Some(cloth) = &self.scene.cloth {
+            self.point_count(cloth);
+            self.pins(cloth);
+            self.thickness(cloth);
+        }
+        self.near_and_far();
+        self.object_count();
+    }
+
+    fn point_count(&mut self, cloth: &Cloth) {
+        let (w, h) = (cloth.num_width_points, cloth.num_height_points);
+        let points = w.checked_mul(h);
+        if !self.clean(&[W, H]) || points.is_some_and(|points| points <= MAX_POINTS) {
+            return;
+        }
+        let place = self.span(W);
+        let finding =
+            Finding::new("scene::too_many_points", format!("a cloth of {w} x {h} points is too large"))
+                .key(W)
+                .also(self.span(H), "times this")
+                .help(format!("their product may be at most {MAX_POINTS}"));
+        self.error(place, "points along x", finding);
+    }
+
+    fn pins(&mut self, cloth: &Cloth) {
+        if !self.clean(&["cloth.pinned"]) {
+            return;
+        }
+        let mut first = BTreeMap::new();
+        for (i, &[x, y]) in cloth.pinned.iter().enumerate() {
+            let on_grid = self.pin_on_axis(i, 0, x, cloth.num_width_points, W)
+                & self.pin_on_axis(i, 1, y, cloth.num_height_points, H);
+            if !on_grid {
+                continue;
+            }
+            match first.get(&[x, y]) {
+                Some(&first) => self.pinned_twice(i, [x, y], first),
+                None => {
+                    first.insert([x, y], i);
+                }
+            }
+        }
+    }
+
+    /// Whether coordinate `index` of a pin lies below `count`, which the key `count_key` gives.
+    fn pin_on_axis(&mut self, pin: usize, axis: usize, index: usize, count: usize, count_key: &str) -> bool {
+        if index < count || !self.clean(&[count_key]) {
+            return true;
+        }
+        let key = format!("cloth.pinned.{pin}");
+        let place = self.span(&format!("{key}.{axis}"));
+        let name = count_key.strip_prefix("cloth.").unwrap_or(count_key);
+        let finding = Finding::new("scene::pin_outside", format!("pinned point `{key}` is outside the grid"))
+            .key(key)
+            .also(self.span(count_key), format!("`{name}` is set here"));
+        let last = count.saturating_sub(1);
+        self.error(place, &format!("must be from 0 to {last}: there are {count} points"), finding);
+        false
+    }
+
+    fn pinned_twice(&mut self, pin: usize, [x, y]: [usize; 2], first: usize) {
+        let key = format!("cloth.pinned.{pin}");
+        let place = self.span(&key);
+        let finding = Finding::new("scene::duplicate_pin", format!("point [{x}, {y}] is pinned twice"))
+            .key(key)
+            .also(self.span(&format!("cloth.pinned.{first}")), "first pinned here")
+            .help("remove one of the two");
+        self.error(place, "again here", finding);
+    }
+
+    /// Warns if self-collision pushes points apart that are neighbours at rest.
+    fn thickness(&mut self, cloth: &Cloth) {
+        let keys = [W, H, "cloth.width", "cloth.height", "cloth.thickness"];
+        let [dx, dy] = [(cloth.width, cloth.num_width_points), (cloth.height, cloth.num_height_points)]
+            .map(|(length, points)| length / points.saturating_sub(1) as f64);
+        let spacing = dx.min(dy);
+        let off = self.scene.sim.self_collision == SelfCollision::Off;
+        if off || 2.0 * cloth.thickness <= spacing || !self.clean(&keys) {
+            return;
+        }
+        let message = format!(
+            "2 x thickness is {} m, more than the {spacing:.4e} m between neighbouring points",
+            2.0 * cloth.thickness
+        );
+        let finding = Finding::new("scene::thickness", message).key("cloth.thickness").help(format!(
+            "self-collision pushes the cloth apart at rest unless this is at most {:.4e}",
+            spacing / 2.0
+        ));
+        if let Some(place) = self.span("cloth.thickness") {
+            self.report.warn(finding.at(place, "half the distance that self-collision keeps"));
+        }
+    }
+
+    fn near_and_far(&mut self) {
+        let camera = &self.scene.camera;
+        if camera.near < camera.far || !self.clean(&["camera.near", "camera.far"]) {
+            return;
+        }
+        let (near, far) = (self.span("camera.near"), self.span("camera.far"));
+        let message =
+            format!("the near plane ({} m) is not before the far plane ({} m)", camera.near, camera.far);
+        let finding = Finding::new("scene::near_far", message)
+            .key("camera.near")
+            .also(near.and(far), "`camera.far` is set here")
+            .help("`camera.near` must be below `camera.far`");
+        self.error(near.or(far), "", finding);
+    }
+
+    fn object_count(&mut self) {
+        let scene = self.scene;
+        let count = usize::from(scene.cloth.is_some()) + scene.planes.len() + scene.spheres.len();
+        if count <= MAX_OBJECTS {
+            return;
+        }
+        let key = if scene.planes.len() > scene.spheres.len() { "plane" } else { "sphere" };
+        let place = self.span(key).map(Span::first);
+        let finding = Finding::new("scene::too_many_objects", format!("{count} objects are too many"))
+            .key(key)
+            .help(format!("cloth, planes and spheres together may be at most {MAX_OBJECTS}"));
+        self.error(place, "most of them are here", finding);
+    }
+
+    fn error(&mut self, place: Option<Span>, label: &str, finding: Finding) {
+        self.report.error(match place {
+            Some(place) => finding.at(place, label),
+            None => finding,
+        });
+    }
+
+    fn clean(&self, keys: &[&str]) -> bool {
+        keys.iter().all(|key| self.report.clean(key))
+    }
+
+    fn span(&self, path: &str) -> Option<Span> {
+        self.document.get(path).map(|node| node.span)
+    }
+}
+
+const W: &str = "cloth.num_width_points";
+const H: &str = "cloth.num_height_points";

@@ -1,0 +1,130 @@
+//! From a file's name to a [`Scene`]: reads, patches, validates.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::checks::Checks;
+use super::format::{Node, parse};
+use super::report::{Finding, Report};
+use super::source::Span;
+use super::{Scene, fields, patch, reader};
+use crate::error::{Diagnostic, Error, Kind, Result};
+
+/// Largest scene or patch file, in bytes.
+pub const MAX_FILE: u64 = 16 << 20;
+
+/// Changes to a scene from outside its file: all patches in order, then all sets in order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Overrides {
+    /// Files with a JSON merge patch each (RFC 7396). There `null` removes a key.
+    pub patches: Vec<PathBuf>,
+    /// `PATH=JSON` each, such as `cloth.ks=500`, `sphere.0.radius=0.1` or `material.shader=bump`
+    /// (a bare word is text). The value replaces what is there; `null` is a value like any other.
+    pub sets: Vec<String>,
+}
+
+/// A valid scene and what is doubtful in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// What is allowed but probably not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Loads the scene file `path`, changed by `overrides`.
+///
+/// # Errors
+/// [`Kind::Scene`] with every diagnostic if the file, a patch or a set is not valid;
+/// [`Kind::Io`] if a file cannot be read; [`Kind::Usage`] if a set is not of the form `PATH=JSON`.
+pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
+    assemble(&path.display().to_string(), &read(path)?, overrides)
+}
+
+/// Loads a scene from `text`, which errors call `name`, changed by `overrides`.
+///
+/// # Errors
+/// As [`load`].
+///
+/// ```
+/// use drape::scene::{Overrides, load_text};
+///
+/// let scene = load_text("empty", "{}", &Overrides::default())?.scene;
+/// assert_eq!(scene.sim.fps, 90.0);
+///
+/// let error = load_text("typo", r#"{"camera": {"polr": 60}}"#, &Overrides::default()).unwrap_err();
+/// assert_eq!(error.diagnostics[0].help, "did you mean `polar`?");
+/// # Ok::<(), drape::error::Error>(())
+/// ```
+pub fn load_text(name: &str, text: &str, overrides: &Overrides) -> Result<Loaded> {
+    assemble(name, text.as_bytes(), overrides)
+}
+
+fn assemble(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Loaded> {
+    let mut report = Report::default();
+    let document = file(&mut report, name, bytes);
+    let mut patches = Vec::new();
+    for path in &overrides.patches {
+        patches.push(file(&mut report, &path.display().to_string(), &read(path)?));
+    }
+    let mut sets = Vec::new();
+    for argument in &overrides.sets {
+        sets.push(patch::read_set(&mut report, argument)?);
+    }
+    let texts = document.zip(patches.into_iter().collect::<Option<Vec<_>>>());
+    let scene =
+        texts.zip(sets.into_iter().collect::<Option<Vec<_>>>()).and_then(|((document, patches), sets)| {
+            let mut document = patches.into_iter().fold(document, patch::merge);
+            sets.into_iter().for_each(|set| patch::apply(&mut report, &mut document, set));
+            validate(&mut report, &document)
+        });
+    let warnings = report.finish()?;
+    let scene = scene.ok_or_else(|| Error::new(Kind::Internal, "no scene and no error"))?;
+    Ok(Loaded { scene, warnings })
+}
+
+fn validate(report: &mut Report, document: &Node) -> Option<Scene> {
+    let scene = reader::document(report, document, fields::scene).flatten()?;
+    Checks { report, document, scene: &scene }.run();
+    Some(scene)
+}
+
+/// The bytes of a file, at most one more than allowed.
+fn read(path: &Path) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes))
+        .map_err(|e| Error::new(Kind::Io, format!("cannot read {}: {e}", path.display())))?;
+    Ok(bytes)
+}
+
+/// The JSON value of a file's bytes; nothing, after a report, if they are not JSON in UTF-8.
+fn file(report: &mut Report, name: &str, bytes: &[u8]) -> Option<Node> {
+    if bytes.len() as u64 > MAX_FILE {
+        let place = Span { source: report.add_source(name, ""), start: 0, end: 0 };
+        let message = format!("the file is larger than {MAX_FILE} bytes");
+        report.error(Finding::new("scene::too_large", message).at(place, "not read"));
+        return None;
+    }
+    let text = String::from_utf8_lossy(bytes);
+    let source = report.add_source(name, &*text);
+    let wrong = if let Err(error) = std::str::from_utf8(bytes) {
+        let start = error.valid_up_to();
+        Some((start..start + char::REPLACEMENT_CHARACTER.len_utf8(), "not valid UTF-8"))
+    } else if text.starts_with('\u{feff}') {
+        Some((0..'\u{feff}'.len_utf8(), "the file starts with a byte order mark"))
+    } else if text.trim_ascii().is_empty() {
+        Some((0..0, "the file is empty"))
+    } else {
+        None
+    };
+    match wrong {
+        None => parse(report, source, 0),
+        Some((range, message)) => {
+            let place = Span { source, start: range.start, end: range.end };
+            report.error(Finding::new("scene::syntax", message).at(place, "here"));
+            None
+        }
+    }
+}

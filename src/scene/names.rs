@@ -1,0 +1,57 @@
+//! The names that scene files and the command line give to the choices of a [`super::Scene`].
+
+use super::{Damping, Filter, Integrator, Precision, SelfCollision, Shader, Start};
+
+impl Shader {
+    /// Every shader with its name, in the order of the report.
+    pub const NAMES: &'static [(&'static str, Self)] = &[
+        ("wireframe", Self::Wireframe),
+        ("normal", Self::Normal),
+        ("diffuse", Self::Diffuse),
+        ("phong", Self::Phong),
+        ("texture", Self::Texture),
+        ("bump", Self::Bump),
+        ("displacement", Self::Displacement),
+        ("mirror", Self::Mirror),
+        ("custom", Self::Custom),
+    ];
+
+    /// The name of this shader.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, shader)| *shader == self).map_or("", |(name, _)| name)
+    }
+}
+
+/// `sim.integrator`
+pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[("verlet", Integrator::Verlet)];
+
+/// `sim.precision`
+pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64)];
+
+/// `sim.start`
+pub(super) const STARTS: &[(&str, Start)] = &[("report", Start::Report)];
+
+/// `sim.damping`
+pub(super) const DAMPINGS: &[(&str, Damping)] = &[("per_step", Damping::PerStep)];
+
+/// `sim.self_collision`
+pub(super) const SELF_COLLISIONS: &[(&str, SelfCollision)] =
+    &[("same_box", SelfCollision::SameBox), ("off", SelfCollision::Off)];
+
+/// `render.filter`
+pub(super) const FILTERS: &[(&str, Filter)] = &[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear)];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shader_has_one_name() {
+        let names: std::collections::BTreeSet<_> = Shader::NAMES.iter().map(|(_, s)| s.name()).collect();
+        assert_eq!(names.len(), 9);
+        assert!(!names.contains(""));
+        for (name, shader) in Shader::NAMES {
+            assert_eq!(shader.name(), *name);
+        }
+    }
+}

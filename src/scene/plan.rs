@@ -1,0 +1,255 @@
+//! What a scene needs and why: decided once, so that nothing else is allocated, read or run.
+
+use super::{Cloth, Material, Scene, SelfCollision, Shader};
+
+/// What a scene needs. Everything that is `false` or absent here can be left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Whether structural springs are built.
+    pub structural: bool,
+    /// Whether shearing springs are built.
+    pub shearing: bool,
+    /// Whether bending springs are built.
+    pub bending: bool,
+    /// Whether the self-collision phase runs.
+    pub self_collision: bool,
+    /// Whether points are tested against planes.
+    pub planes: bool,
+    /// Whether points are tested against spheres.
+    pub spheres: bool,
+    /// Whether the stretch limit runs.
+    pub stretch_limit: bool,
+    /// What is drawn, in draw order: cloth, planes, spheres.
+    pub objects: Vec<ObjectPlan>,
+    /// The textures and height maps to read, each once, in order of first use.
+    pub textures: Vec<String>,
+    /// The cube maps to read, each once, in order of first use.
+    pub environments: Vec<String>,
+    /// Every decision above with its reason.
+    pub items: Vec<Item>,
+}
+
+/// What one drawn object needs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObjectPlan {
+    /// The object's key in the file: `cloth`, `sphere`, or `sphere.1` if there are several.
+    pub name: String,
+    /// What its shader reads.
+    pub needs: Needs,
+}
+
+/// What a shader reads besides the position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Vertex normals.
+    pub normal: bool,
+    /// Vertex tangents.
+    pub tangent: bool,
+    /// Texture coordinates.
+    pub uv: bool,
+    /// The colour texture.
+    pub texture: bool,
+    /// The height map.
+    pub height_map: bool,
+    /// The cube map.
+    pub environment: bool,
+}
+
+/// One thing that is needed or left out, for people.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Item {
+    /// What it is, such as `bending springs`.
+    pub name: String,
+    /// Whether it is needed.
+    pub needed: bool,
+    /// Why, or why not.
+    pub reason: String,
+}
+
+impl Needs {
+    /// What `shader` reads.
+    pub fn of(shader: Shader) -> Self {
+        let nothing = Self::default();
+        let normal = Self { normal: true, ..nothing };
+        let relief = Self { normal: true, tangent: true, uv: true, height_map: true, ..nothing };
+        match shader {
+            Shader::Wireframe => nothing,
+            Shader::Normal | Shader::Diffuse | Shader::Phong => normal,
+            Shader::Texture => Self { uv: true, texture: true, ..nothing },
+            Shader::Bump | Shader::Displacement => relief,
+            Shader::Mirror => Self { environment: true, ..normal },
+            Shader::Custom => Self { texture: true, environment: true, ..relief },
+        }
+    }
+
+    /// Each thing a shader can read, with its name and whether it is read.
+    fn named(self) -> [(&'static str, bool); 6] {
+        [
+            ("normals", self.normal),
+            ("tangents", self.tangent),
+            ("texture coordinates", self.uv),
+            ("texture", self.texture),
+            ("height map", self.height_map),
+            ("environment", self.environment),
+        ]
+    }
+}
+
+impl Plan {
+    /// The plan of `scene`.
+    pub fn of(scene: &Scene) -> Self {
+        let items = &mut Vec::new();
+        let [structural, shearing, bending] = springs(scene, items);
+        let any_spring = structural || shearing || bending;
+        let self_collision = note(items, "self-collision", self_collision(scene));
+        let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes.len()));
+        let spheres = note(items, "collision with spheres", collision(scene, "sphere", scene.spheres.len()));
+        let stretch_limit = note(items, "stretch limit", stretch_limit(scene, any_spring));
+        let drawn = drawn(scene);
+        let objects = drawn.iter().map(|(name, material)| object(name, material, items)).collect();
+        let textures = images(&drawn, items, "texture", |needs, material| {
+            vec![(needs.texture, &material.texture), (needs.height_map, &material.height_map)]
+        });
+        let environments = images(&drawn, items, "cube map", |needs, material| {
+            vec![(needs.environment, &material.environment)]
+        });
+        let items = std::mem::take(items);
+        Self {
+            structural,
+            shearing,
+            bending,
+            self_collision,
+            planes,
+            spheres,
+            stretch_limit,
+            objects,
+            textures,
+            environments,
+            items,
+        }
+    }
+
+    /// Each thing that is needed or left out, one line each, with the reason.
+    pub fn lines(&self) -> impl Iterator<Item = String> + '_ {
+        self.items.iter().map(|item| {
+            let verdict = if item.needed { "needed" } else { "left out" };
+            format!("{}: {verdict}: {}", item.name, item.reason)
+        })
+    }
+}
+
+/// Why something is needed, or why it is left out.
+type Decision = Result<String, String>;
+
+fn note(items: &mut Vec<Item>, name: &str, decision: Decision) -> bool {
+    let needed = decision.is_ok();
+    let reason = decision.unwrap_or_else(|why_not| why_not);
+    items.push(Item { name: name.into(), needed, reason });
+    needed
+}
+
+fn cloth(scene: &Scene) -> Result<&Cloth, String> {
+    scene.cloth.as_ref().ok_or_else(|| "the scene has no cloth".into())
+}
+
+fn springs(scene: &Scene, items: &mut Vec<Item>) -> [bool; 3] {
+    let kinds: [(&str, fn(&Cloth) -> bool); 3] = [
+        ("structural", |cloth| cloth.enable_structural),
+        ("shearing", |cloth| cloth.enable_shearing),
+        ("bending", |cloth| cloth.enable_bending),
+    ];
+    kinds.map(|(kind, enabled)| {
+        let decision = cloth(scene).and_then(|cloth| {
+            let reason = format!("cloth.enable_{kind} is {}", enabled(cloth));
+            if enabled(cloth) { Ok(reason) } else { Err(reason) }
+        });
+        note(items, &format!("{kind} springs"), decision)
+    })
+}
+
+fn self_collision(scene: &Scene) -> Decision {
+    let cloth = cloth(scene)?;
+    if scene.sim.self_collision == SelfCollision::Off {
+        return Err("sim.self_collision is off".into());
+    }
+    if cloth.thickness == 0.0 {
+        return Err("cloth.thickness is 0".into());
+    }
+    Ok(format!("cloth.thickness is {} m", cloth.thickness))
+}
+
+fn collision(scene: &Scene, kind: &str, count: usize) -> Decision {
+    cloth(scene)?;
+    match count {
+        0 => Err(format!("the scene has no {kind}")),
+        1 => Ok(format!("the scene has 1 {kind}")),
+        _ => Ok(format!("the scene has {count} {kind}s")),
+    }
+}
+
+fn stretch_limit(scene: &Scene, any_spring: bool) -> Decision {
+    cloth(scene)?;
+    if !any_spring {
+        return Err("there are no springs".into());
+    }
+    let limit = scene.sim.stretch_limit.ok_or("sim.stretch_limit is null")?;
+    Ok(format!("sim.stretch_limit is {limit}"))
+}
+
+/// The drawn objects by name, in draw order.
+fn drawn(scene: &Scene) -> Vec<(String, &Material)> {
+    let cloth = scene.cloth.iter().map(|cloth| ("cloth".into(), &cloth.material));
+    let planes = numbered("plane", scene.planes.iter().map(|plane| &plane.material));
+    let spheres = numbered("sphere", scene.spheres.iter().map(|sphere| &sphere.material));
+    cloth.chain(planes).chain(spheres).collect()
+}
+
+fn numbered<'a>(
+    kind: &str,
+    materials: impl ExactSizeIterator<Item = &'a Material>,
+) -> impl Iterator<Item = (String, &'a Material)> {
+    let several = materials.len() > 1;
+    let name = move |i| if several { format!("{kind}.{i}") } else { kind.to_owned() };
+    materials.enumerate().map(move |(i, material)| (name(i), material))
+}
+
+fn object(name: &str, material: &Material, items: &mut Vec<Item>) -> ObjectPlan {
+    let needs = Needs::of(material.shader);
+    let shader = material.shader.name();
+    for (what, needed) in needs.named() {
+        let decision = if needed {
+            Ok(format!("read by the {shader} shader"))
+        } else {
+            Err(format!("not read by the {shader} shader"))
+        };
+        note(items, &format!("{name} {what}"), decision);
+    }
+    ObjectPlan { name: name.into(), needs }
+}
+
+/// The names of the images of one kind that are read, each once, noted with their readers.
+fn images<'a>(
+    drawn: &[(String, &'a Material)],
+    items: &mut Vec<Item>,
+    kind: &str,
+    read: impl Fn(Needs, &'a Material) -> Vec<(bool, &'a String)>,
+) -> Vec<String> {
+    let mut readers: Vec<(&String, Vec<&str>)> = Vec::new();
+    for (object, material) in drawn {
+        for (_, image) in read(Needs::of(material.shader), material).into_iter().filter(|(needed, _)| *needed)
+        {
+            match readers.iter_mut().find(|(name, _)| *name == image) {
+                Some((_, objects)) if objects.contains(&object.as_str()) => {}
+                Some((_, objects)) => objects.push(object),
+                None => readers.push((image, vec![object])),
+            }
+        }
+    }
+    if readers.is_empty() {
+        note(items, &format!("{kind}s"), Err("no shader reads one".into()));
+    }
+    for (image, objects) in &readers {
+        note(items, &format!("{kind} {image}"), Ok(format!("read by {}", objects.join(", "))));
+    }
+    readers.into_iter().map(|(image, _)| image.clone()).collect()
+}

@@ -1,0 +1,130 @@
+//! Reads the keys of an object by rules, and reports keys that are missing or unknown.
+
+use super::format::{Json, Member, Node, join, quoted, shown};
+use super::nearest::did_you_mean;
+use super::report::{Finding, Report};
+use super::rule::{At, Rule};
+use super::source::Span;
+
+/// An object of a scene file while its keys are read.
+pub(super) struct Object<'a> {
+    report: &'a mut Report,
+    members: &'a [Member],
+    span: Span,
+    path: &'a str,
+    known: Vec<&'static str>,
+}
+
+/// Reads the whole document, which must be an object, with `read`.
+pub(super) fn document<T>(
+    report: &mut Report,
+    node: &Node,
+    read: impl FnOnce(&mut Object) -> T,
+) -> Option<T> {
+    object(report, "", node, read)
+}
+
+fn object<T>(report: &mut Report, path: &str, node: &Node, read: impl FnOnce(&mut Object) -> T) -> Option<T> {
+    let Json::Object(members) = &node.json else {
+        return At { report, key: path, node }.wrong_type("an object");
+    };
+    let mut object = Object { report, members, span: node.span, path, known: Vec::new() };
+    let value = read(&mut object);
+    object.report_unknown();
+    Some(value)
+}
+
+impl Object<'_> {
+    /// The value of a key that must be given.
+    pub(super) fn required<R: Rule>(&mut self, name: &'static str, rule: R) -> R::Value {
+        match self.find(name) {
+            Some(node) => self.read(name, node, &rule),
+            None => {
+                self.report_missing(name, &rule.words());
+                rule.stand_in()
+            }
+        }
+    }
+
+    /// The value of a key that may be left out.
+    pub(super) fn optional<R: Rule>(&mut self, name: &'static str, default: R::Value, rule: R) -> R::Value {
+        match self.find(name) {
+            Some(node) => self.read(name, node, &rule),
+            None => default,
+        }
+    }
+
+    /// An object that may be left out, which means an empty one.
+    pub(super) fn group<T>(&mut self, name: &'static str, read: impl FnOnce(&mut Object) -> T) -> Option<T> {
+        let empty = Node { span: self.span, json: Json::Object(Vec::new()) };
+        let path = self.join(name);
+        match self.find(name) {
+            Some(node) => object(self.report, &path, node, read),
+            None => object(self.report, &path, &empty, read),
+        }
+    }
+
+    /// An object that may be left out.
+    pub(super) fn maybe<T>(&mut self, name: &'static str, read: impl FnOnce(&mut Object) -> T) -> Option<T> {
+        let path = self.join(name);
+        self.find(name).and_then(|node| object(self.report, &path, node, read))
+    }
+
+    /// No object, one, or a list of them.
+    pub(super) fn each<T>(&mut self, name: &'static str, mut read: impl FnMut(&mut Object) -> T) -> Vec<T> {
+        let path = self.join(name);
+        let Some(node) = self.find(name) else { return Vec::new() };
+        let Json::List(items) = &node.json else {
+            return object(self.report, &path, node, read).into_iter().collect();
+        };
+        let numbered = items.iter().enumerate();
+        numbered
+            .filter_map(|(i, item)| object(self.report, &format!("{path}.{i}"), item, &mut read))
+            .collect()
+    }
+
+    /// Whether the key is given.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.members.iter().any(|member| member.key == name)
+    }
+
+    fn read<R: Rule>(&mut self, name: &str, node: &Node, rule: &R) -> R::Value {
+        let key = self.join(name);
+        let value = rule.read(&mut At { report: self.report, key: &key, node });
+        value.unwrap_or_else(|| rule.stand_in())
+    }
+
+    fn join(&self, name: &str) -> String {
+        join(self.path, name)
+    }
+
+    fn report_missing(&mut self, name: &str, words: &str) {
+        let finding =
+            Finding::new("scene::missing_key", format!("{} is missing `{name}`", quoted(self.path)))
+                .at(self.span.first(), "in the object that starts here")
+                .key(self.join(name))
+                .help(format!("`{name}` is {words}"));
+        self.report.error(finding);
+    }
+
+    fn report_unknown(&mut self) {
+        for member in self.members.iter().filter(|m| !self.known.contains(&m.key.as_str())) {
+            let path = self.join(&shown(&member.key));
+            let listed = || format!("the keys here are {}", self.known.join(", "));
+            let help = did_you_mean(&member.key, self.known.iter().copied()).unwrap_or_else(listed);
+            let finding = Finding::new("scene::unknown_key", format!("unknown key `{path}`"))
+                .at(member.key_span, "not a key of this object")
+                .key(path)
+                .help(help);
+            self.report.error(finding);
+        }
+    }
+}
+
+impl<'a> Object<'a> {
+    /// The value of a key, which from now on is known.
+    fn find(&mut self, name: &'static str) -> Option<&'a Node> {
+        self.known.push(name);
+        self.members.iter().find(|member| member.key == name).map(|member| &member.value)
+    }
+}

@@ -1,0 +1,133 @@
+//! What is found wrong while a scene is read: collected, so that all errors come at once.
+
+use std::rc::Rc;
+
+use super::render;
+use super::source::{Source, Span};
+use crate::error::{Diagnostic, Error};
+
+/// More errors than this are counted, not listed.
+const MOST_ERRORS: usize = 100;
+
+/// One thing found, before it is turned into a [`Diagnostic`].
+pub(super) struct Finding {
+    pub(super) code: &'static str,
+    pub(super) message: String,
+    pub(super) key: String,
+    pub(super) place: Option<Span>,
+    pub(super) label: String,
+    pub(super) also: Option<(Span, String)>,
+    pub(super) help: String,
+}
+
+impl Finding {
+    /// A finding that says `message`, at no place yet.
+    pub(super) fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+            key: String::new(),
+            place: None,
+            label: String::new(),
+            also: None,
+            help: String::new(),
+        }
+    }
+
+    /// Points at `place`, with `label` beside the caret.
+    pub(super) fn at(mut self, place: Span, label: impl Into<String>) -> Self {
+        self.place = Some(place);
+        self.label = label.into();
+        self
+    }
+
+    /// Names the dotted key that is wrong.
+    pub(super) fn key(mut self, key: impl Into<String>) -> Self {
+        self.key = key.into();
+        self
+    }
+
+    /// Points at a second place that explains the first.
+    pub(super) fn also(mut self, place: Option<Span>, label: impl Into<String>) -> Self {
+        self.also = place.map(|place| (place, label.into()));
+        self
+    }
+
+    /// Says what to try.
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = help.into();
+        self
+    }
+}
+
+/// The sources of a scene and everything found in them.
+#[derive(Default)]
+pub(super) struct Report {
+    pub(super) sources: Vec<Source>,
+    errors: Vec<Diagnostic>,
+    warnings: Vec<Diagnostic>,
+    unlisted: usize,
+}
+
+impl Report {
+    /// Takes in a text; returns its number.
+    pub(super) fn add_source(&mut self, name: impl Into<String>, text: impl Into<Rc<str>>) -> usize {
+        self.sources.push(Source { name: name.into(), text: text.into() });
+        self.sources.len() - 1
+    }
+
+    /// The text of a span up to its first line end.
+    pub(super) fn text(&self, span: Span) -> &str {
+        self.sources.get(span.source).map_or("", |source| source.first_line(span))
+    }
+
+    /// Records an error: no scene will come of this text.
+    pub(super) fn error(&mut self, finding: Finding) {
+        if self.errors.len() < MOST_ERRORS {
+            let diagnostic = self.diagnostic(&finding, render::Severity::Error);
+            self.errors.push(diagnostic);
+        } else {
+            self.unlisted += 1;
+        }
+    }
+
+    /// Records something doubtful that is allowed.
+    pub(super) fn warn(&mut self, finding: Finding) {
+        let diagnostic = self.diagnostic(&finding, render::Severity::Warning);
+        self.warnings.push(diagnostic);
+    }
+
+    /// Whether nothing is wrong at `key` itself or inside it.
+    pub(super) fn clean(&self, key: &str) -> bool {
+        let inside = |found: &str| {
+            found.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        self.unlisted == 0 && !self.errors.iter().any(|e| inside(&e.key))
+    }
+
+    /// The warnings if there was no error, else all errors as one.
+    pub(super) fn finish(mut self) -> Result<Vec<Diagnostic>, Error> {
+        if self.unlisted > 0 {
+            let more = Finding::new("scene::more", format!("{} more errors are not listed", self.unlisted));
+            let diagnostic = self.diagnostic(&more, render::Severity::Error);
+            self.errors.push(diagnostic);
+        }
+        if self.errors.is_empty() { Ok(self.warnings) } else { Err(Error::scene(self.errors)) }
+    }
+
+    fn diagnostic(&self, finding: &Finding, severity: render::Severity) -> Diagnostic {
+        let source = finding.place.and_then(|span| Some((self.sources.get(span.source)?, span)));
+        let (line, column) = source.map_or((0, 0), |(source, span)| source.line_column(span.start));
+        let file = source.map(|(source, _)| source).or(self.sources.first());
+        Diagnostic {
+            code: finding.code,
+            message: finding.message.clone(),
+            file: file.map_or_else(String::new, |source| source.name.clone()),
+            line,
+            column,
+            key: finding.key.clone(),
+            help: finding.help.clone(),
+            rendered: render::render(&self.sources, finding, severity),
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! One simulation: the state of a cloth and the step that moves it on.
+
+use std::time::Instant;
+
+use crate::cloth::collide::Objects;
+use crate::cloth::energy::Energy;
+use crate::cloth::forces::Forces;
+use crate::cloth::grid::{self, Grid, Pins};
+use crate::cloth::self_collision::SelfCollision;
+use crate::cloth::springs::Springs;
+use crate::cloth::stretch_limit::StretchLimit;
+use crate::cloth::{Constants, Counters, Points, verlet};
+use crate::error::{Error, Kind, Result};
+use crate::math::StateHash;
+use crate::scene::Scene;
+
+/// A scene in motion. Without a cloth it has zero points, and only its clock moves.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    steps_per_frame: u64,
+    dt: f64,
+    steps: u64,
+    cloth: Option<State>,
+    counters: Counters,
+    stopwatch: Stopwatch,
+    no_points: Points,
+}
+
+/// The state of a cloth and what its step needs; phases that the scene does without are absent.
+#[derive(Clone, Debug)]
+struct State {
+    constants: Constants,
+    grid: Grid,
+    pins: Pins,
+    springs: Springs,
+    x: Points,
+    last: Points,
+    forces: Forces,
+    self_collision: Option<SelfCollision>,
+    objects: Option<Objects>,
+    stretch_limit: Option<StretchLimit>,
+}
+
+/// Wall time spent in each phase since the start, in nanoseconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Timings {
+    /// Phase 1: weight and springs.
+    pub forces: u64,
+    /// Phase 2: Verlet's scheme.
+    pub verlet: u64,
+    /// Phase 3: close points of the cloth.
+    pub self_collision: u64,
+    /// Phase 4: planes and spheres.
+    pub objects: u64,
+    /// Phase 5: springs that are too long.
+    pub stretch_limit: u64,
+}
+
+impl Simulation {
+    /// The simulation of `scene` at its start.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] when the cloth does not fit in memory, has fewer than 2 x 2 points, or a pin
+    /// lies outside it.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        Ok(Self {
+            steps_per_frame: u64::from(scene.sim.steps_per_frame),
+            dt: 1.0 / scene.sim.fps / f64::from(scene.sim.steps_per_frame),
+            steps: 0,
+            cloth: State::new(scene)?,
+            counters: Counters::default(),
+            stopwatch: Stopwatch::default(),
+            no_points: Points::default(),
+        })
+    }
+
+    /// Makes one step.
+    pub fn step(&mut self) {
+        if let Some(cloth) = &mut self.cloth {
+            cloth.step(&mut self.counters, &mut self.stopwatch);
+        }
+        self.counters.steps += 1;
+        self.steps += 1;
+    }
+
+    /// Makes the steps of one frame, then checks that every position is still a number.
+    ///
+    /// # Errors
+    /// [`Kind::Unstable`] when a position is infinite or no number.
+    pub fn advance_frame(&mut self) -> Result<()> {
+        let last_good = self.frame();
+        (0..self.steps_per_frame).for_each(|_| self.step());
+        let Some(cloth) = &self.cloth else { return Ok(()) };
+        let Some(point) = first_non_finite(&cloth.x) else { return Ok(()) };
+        let (i, j) = cloth.grid.column_row(point);
+        let step = self.steps;
+        let message =
+            format!("unstable: point ({i}, {j}) is lost at step {step}; last good frame: {last_good}");
+        Err(Error::new(Kind::Unstable, message).with_help("raise sim.steps_per_frame or lower cloth.ks"))
+    }
+
+    /// How many frames are complete.
+    pub fn frame(&self) -> u64 {
+        self.steps / self.steps_per_frame
+    }
+
+    /// How many steps were made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Simulated time since the start, in seconds.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.dt
+    }
+
+    /// Where the points are, in metres.
+    pub fn positions(&self) -> &Points {
+        self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.x)
+    }
+
+    /// Where the points were one step ago but for collisions and the stretch limit, in metres.
+    pub fn last_positions(&self) -> &Points {
+        self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.last)
+    }
+
+    /// The energies of the cloth, in J; zero without a cloth.
+    pub fn energy(&self) -> Energy {
+        let Some(cloth) = &self.cloth else { return Energy::default() };
+        Energy::new(&cloth.x, &cloth.last, &cloth.springs, &cloth.constants)
+    }
+
+    /// A hash over the bits of the whole state: the arrays x, y and z of the positions, then those
+    /// of the last positions.
+    pub fn state_hash(&self) -> u64 {
+        let mut hash = StateHash::default();
+        for points in [self.positions(), self.last_positions()] {
+            for &value in points.x.iter().chain(&points.y).chain(&points.z) {
+                hash.write_f64(value);
+            }
+        }
+        hash.finish()
+    }
+
+    /// What was done since the start.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// Measures from now on how long each phase takes.
+    pub fn record_timings(&mut self) {
+        self.stopwatch.timings = Some(Timings::default());
+    }
+
+    /// How long each phase took since [`Simulation::record_timings`], if it was called.
+    pub fn timings(&self) -> Option<Timings> {
+        self.stopwatch.timings
+    }
+}
+
+impl State {
+    /// The cloth of `scene` at its start, if there is one.
+    fn new(scene: &Scene) -> Result<Option<Self>> {
+        let Some(cloth) = &scene.cloth else { return Ok(None) };
+        let grid = Grid::new(cloth)?;
+        let x = grid::start(cloth, grid)?;
+        let springs = Springs::new(cloth, grid, &x)?;
+        Ok(Some(Self {
+            constants: Constants::new(cloth, &scene.sim),
+            grid,
+            pins: Pins::new(cloth, grid)?,
+            last: grid::start(cloth, grid)?,
+            forces: Forces::new(&springs)?,
+            self_collision: SelfCollision::new(cloth, &scene.sim, grid, &x)?,
+            objects: Objects::new(scene),
+            stretch_limit: StretchLimit::new(&scene.sim, &springs)?,
+            springs,
+            x,
+        }))
+    }
+
+    /// One step of the method. The phases after Verlet's change positions and never `last`.
+    fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
+        let Self { constants, pins, springs, x, last, forces, .. } = self;
+        stopwatch.start();
+
+        // 1. Forces: the weight of every point and the pull of every spring.
+        forces.compute(x, springs, constants.weight, counters);
+        stopwatch.lap(|timings| &mut timings.forces);
+
+        // 2. Verlet: every free point moves on.
+        verlet::advance(x, last, &forces.sum, pins, constants, counters);
+        stopwatch.lap(|timings| &mut timings.verlet);
+
+        // 3. Self-collision: close points of one box move apart.
+        if let Some(self_collision) = &mut self.self_collision {
+            self_collision.apply(x, pins, counters);
+            stopwatch.lap(|timings| &mut timings.self_collision);
+        }
+
+        // 4. Objects: points that went through a plane or into a sphere are put back.
+        if let Some(objects) = &self.objects {
+            objects.collide(x, last, pins, counters);
+            stopwatch.lap(|timings| &mut timings.objects);
+        }
+
+        // 5. Stretch limit: springs that are too long are shortened.
+        if let Some(stretch_limit) = &self.stretch_limit {
+            stretch_limit.apply(x, springs, pins, counters);
+            stopwatch.lap(|timings| &mut timings.stretch_limit);
+        }
+    }
+}
+
+/// The first point with a component that is infinite or no number.
+fn first_non_finite(points: &Points) -> Option<usize> {
+    (0..points.len()).find(|&p| !points.get(p).iter().all(|component| component.is_finite()))
+}
+
+/// Takes the time of the phases, when it was asked to.
+#[derive(Clone, Debug, Default)]
+struct Stopwatch {
+    timings: Option<Timings>,
+    since: Option<Instant>,
+}
+
+impl Stopwatch {
+    /// Starts a lap.
+    fn start(&mut self) {
+        self.since = self.timings.map(|_| Instant::now());
+    }
+
+    /// Ends a lap, adds it to the phase that `phase` picks, and starts the next.
+    fn lap(&mut self, phase: impl Fn(&mut Timings) -> &mut u64) {
+        let (Some(timings), Some(since)) = (&mut self.timings, &mut self.since) else { return };
+        let now = Instant::now();
+        let nanoseconds = now.duration_since(*since).as_nanos();
+        *phase(timings) += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
+        *since = now;
+    }
+}

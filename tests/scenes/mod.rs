@@ -1,0 +1,138 @@
+//! The five stock scenes, built by hand, for tests of the simulation.
+
+#![allow(dead_code, reason = "each test uses some of these")]
+
+use drape::scene::{
+    Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision, Render,
+    Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+};
+
+/// Every stock scene by name.
+pub(crate) fn stock() -> [(&'static str, Scene); 5] {
+    [
+        ("pinned2", pinned2()),
+        ("pinned4", pinned4()),
+        ("sphere", sphere()),
+        ("plane", plane()),
+        ("selfCollision", self_collision()),
+    ]
+}
+
+/// A cloth held at two corners of one side.
+pub(crate) fn pinned2() -> Scene {
+    with_cloth(Cloth { pinned: vec![[0, 0], [49, 0]], ..cloth() })
+}
+
+/// A cloth held at its four corners.
+pub(crate) fn pinned4() -> Scene {
+    with_cloth(Cloth { pinned: vec![[0, 0], [0, 49], [49, 0], [49, 49]], ..cloth() })
+}
+
+/// A cloth that falls on a ball.
+pub(crate) fn sphere() -> Scene {
+    let mut scene = with_cloth(cloth());
+    let origin = Vec3::new(0.5, 0.2, 0.5);
+    let resolution = [40, 40];
+    scene.spheres.push(Sphere { origin, radius: 0.2, friction: 0.3, resolution, material: material() });
+    scene
+}
+
+/// A cloth that falls flat on the floor.
+pub(crate) fn plane() -> Scene {
+    let mut scene = with_cloth(cloth());
+    scene.planes.push(floor());
+    scene
+}
+
+/// An upright cloth that falls on itself.
+pub(crate) fn self_collision() -> Scene {
+    let mut scene = with_cloth(Cloth { orientation: Orientation::Vertical, ..cloth() });
+    scene.planes.push(floor());
+    scene
+}
+
+/// The stock cloth, held nowhere.
+pub(crate) fn cloth() -> Cloth {
+    Cloth {
+        width: 1.0,
+        height: 1.0,
+        num_width_points: 50,
+        num_height_points: 50,
+        thickness: 0.0095,
+        orientation: Orientation::Horizontal,
+        pinned: Vec::new(),
+        damping: 0.2,
+        density: 150.0,
+        ks: 5000.0,
+        enable_structural: true,
+        enable_shearing: true,
+        enable_bending: true,
+        material: material(),
+    }
+}
+
+/// The stock floor.
+pub(crate) fn floor() -> Plane {
+    Plane { point: Vec3::zeros(), normal: Vec3::new(0.0, 1.0, 0.0), friction: 0.5, material: material() }
+}
+
+/// A scene of `cloth` and nothing else.
+pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
+    Scene {
+        cloth: Some(cloth),
+        planes: Vec::new(),
+        spheres: Vec::new(),
+        sim: Sim {
+            fps: 90.0,
+            steps_per_frame: 30,
+            gravity: Vec3::new(0.0, -9.8, 0.0),
+            integrator: Integrator::Verlet,
+            precision: Precision::F64,
+            start: Start::Report,
+            damping: Damping::PerStep,
+            stretch_limit: Some(0.1),
+            stretch_passes: 1,
+            self_collision: SelfCollision::SameBox,
+        },
+        camera: Camera {
+            target: None,
+            distance: None,
+            polar: 90.0,
+            azimuth: 0.0,
+            hfov: 50.0,
+            vfov: 35.0,
+            near: 0.01,
+            far: 10_000.0,
+        },
+        light: Light {
+            position: Vec3::new(0.5, 2.0, 2.0),
+            intensity: Vec3::repeat(3.0),
+            color: Vec3::repeat(1.0),
+        },
+        render: Render {
+            size: [1024, 800],
+            samples: 1,
+            background: Vec3::repeat(0.25),
+            time: 0.0,
+            filter: Filter::Bilinear,
+        },
+    }
+}
+
+/// Any material: the simulation does not read it.
+pub(crate) fn material() -> Material {
+    Material {
+        shader: Shader::Phong,
+        color: Vec3::repeat(1.0),
+        ka: 0.1,
+        kd: 1.0,
+        ks: 0.5,
+        shininess: 32.0,
+        km: 0.5,
+        normal_scaling: 2.0,
+        height_scaling: 0.1,
+        texture: String::new(),
+        height_map: String::new(),
+        environment: String::new(),
+    }
+}
