@@ -53,6 +53,9 @@ impl Checks<'_> {
         }
         let mut first = BTreeMap::new();
         for (i, &[x, y]) in cloth.pinned.iter().enumerate() {
+            if self.report.is_full() {
+                return;
+            }
             let on_grid = self.pin_on_axis(i, 0, x, cloth.num_width_points, W)
                 & self.pin_on_axis(i, 1, y, cloth.num_height_points, H);
             if !on_grid {

@@ -5,8 +5,10 @@ use jsonc_parser::common::{Range, Ranged};
 use jsonc_parser::errors::{ParseError, ParseErrorKind};
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
+use super::path::{Path, Step};
 use super::report::{Finding, Report};
 use super::source::Span;
+use super::words::shown;
 
 /// Deepest nesting of objects and lists that is read; a scene needs four.
 const MOST_LEVELS: usize = 64;
@@ -85,7 +87,7 @@ pub(super) fn parse(report: &mut Report, source: usize, start: usize) -> Option<
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Err(error) => tree.syntax_error(&error),
         Ok(parsed) => match parsed.value {
-            Some(value) if tree.is_json(text) => tree.node(value, 0),
+            Some(value) if tree.is_json(text) => tree.node(value, &Path::ROOT),
             Some(_) => None,
             None => tree.nothing_there(text.len()),
         },
@@ -104,9 +106,9 @@ impl Tree<'_> {
         Span { source: self.source, start: self.start + range.start, end: self.start + range.end }
     }
 
-    fn node(&mut self, value: ast::Value<'_>, level: usize) -> Option<Node> {
+    fn node(&mut self, value: ast::Value<'_>, path: &Path) -> Option<Node> {
         let span = self.span(value.range());
-        if level > MOST_LEVELS {
+        if path.level > MOST_LEVELS {
             return self.too_deep(span);
         }
         let json = match value {
@@ -114,15 +116,17 @@ impl Tree<'_> {
             ast::Value::BooleanLit(literal) => Json::Bool(literal.value),
             ast::Value::NumberLit(literal) => Json::Number(literal.value.parse().ok()?),
             ast::Value::StringLit(literal) => Json::Text(literal.value.into_owned()),
-            ast::Value::Array(array) => Json::List(
-                array.elements.into_iter().map(|v| self.node(v, level + 1)).collect::<Option<_>>()?,
-            ),
-            ast::Value::Object(object) => Json::Object(self.members(object.properties, level + 1)?),
+            ast::Value::Array(array) => {
+                let numbered = array.elements.into_iter().enumerate();
+                let items = numbered.map(|(i, item)| self.node(item, &path.then(Step::Number(i))));
+                Json::List(items.collect::<Option<_>>()?)
+            }
+            ast::Value::Object(object) => Json::Object(self.members(object.properties, path)?),
         };
         Some(Node { span, json })
     }
 
-    fn members(&mut self, properties: Vec<ast::ObjectProp<'_>>, level: usize) -> Option<Vec<Member>> {
+    fn members(&mut self, properties: Vec<ast::ObjectProp<'_>>, path: &Path) -> Option<Vec<Member>> {
         let mut members = Vec::with_capacity(properties.len());
         let mut seen = std::collections::BTreeMap::new();
         for property in properties {
@@ -131,9 +135,10 @@ impl Tree<'_> {
                 ObjectPropName::Word(name) => name.range,
             });
             let key = property.name.into_string();
-            let value = self.node(property.value, level)?;
+            let path = path.then(Step::Name(&key));
+            let value = self.node(property.value, &path)?;
             match seen.get(&key) {
-                Some(&first) => self.duplicate(&key, key_span, first),
+                Some(&first) => self.duplicate(&path, key_span, first),
                 None => {
                     seen.insert(key.clone(), key_span);
                     members.push(Member { key, key_span, value });
@@ -143,11 +148,12 @@ impl Tree<'_> {
         Some(members)
     }
 
-    fn duplicate(&mut self, key: &str, span: Span, first: Span) {
-        let message = format!("duplicate key `{}`", shown(key));
+    fn duplicate(&mut self, path: &Path, span: Span, first: Span) {
+        let key = shown(&path.dotted());
+        let message = format!("duplicate key `{key}`");
         let finding = Finding::new("scene::duplicate_key", message)
             .at(span, "given again here")
-            .key(shown(key))
+            .key(key)
             .also(Some(first), "first given here")
             .help("keep one of the two");
         self.report.error(finding);
@@ -193,34 +199,11 @@ impl Tree<'_> {
     }
 }
 
-/// `text` fit for a message: characters that do not print escaped, long text cut.
-pub(super) fn shown(text: &str) -> String {
-    const MOST: usize = 60;
-    let mut cut = String::new();
-    for c in text.chars().take(MOST) {
-        match c {
-            '"' | '\'' | '\\' => cut.push(c),
-            _ => cut.extend(c.escape_debug()),
-        }
-    }
-    if text.chars().nth(MOST).is_some() { cut + "..." } else { cut }
-}
-
 /// Byte offset of the character that holds the one-based `column`, in bytes, of `line`.
 fn offset(text: &str, line: usize, column: usize) -> usize {
     let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let at = (before + column.saturating_sub(1)).min(text.len());
     (0..=at).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
-}
-
-/// The dotted path of the key `name` in the object at `path`.
-pub(super) fn join(path: &str, name: &str) -> String {
-    if path.is_empty() { name.into() } else { format!("{path}.{name}") }
-}
-
-/// A dotted path in quotes; the empty one is the whole scene.
-pub(super) fn quoted(path: &str) -> String {
-    if path.is_empty() { "the scene".into() } else { format!("`{path}`") }
 }
 
 /// What is wrong, in words that say what to change.

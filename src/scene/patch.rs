@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::format::{Json, Member, Node, join, parse, quoted, shown};
+use super::format::{Json, Member, Node, parse};
 use super::report::{Finding, Report};
 use super::source::Span;
+use super::words::{join, quoted, shown};
 use crate::error::{Error, Kind, Result};
 
 /// Most steps of a `--set` path; a scene needs four.
@@ -110,9 +111,7 @@ fn is_bare_word(value: &str) -> bool {
 /// Puts the value of `set` into `document`; objects on the way are made where they are missing.
 pub(super) fn apply(report: &mut Report, document: &mut Node, set: Set) {
     let steps = list_steps(document, set.steps);
-    if let Err(finding) = insert(document, &steps, "", set.value) {
-        report.error(finding);
-    }
+    insert(report, document, &steps, "", set.value);
 }
 
 /// Lets one object count as a list of one, and a list of one as its object.
@@ -133,10 +132,10 @@ fn list_steps(document: &Node, mut steps: Vec<Step>) -> Vec<Step> {
     steps
 }
 
-fn insert(node: &mut Node, steps: &[Step], path: &str, value: Node) -> Result<(), Finding> {
+fn insert(report: &mut Report, node: &mut Node, steps: &[Step], path: &str, value: Node) {
     let Some((step, rest)) = steps.split_first() else {
         *node = value;
-        return Ok(());
+        return;
     };
     let kind = node.kind();
     let inner = match &mut node.json {
@@ -145,8 +144,8 @@ fn insert(node: &mut Node, steps: &[Step], path: &str, value: Node) -> Result<()
         _ => None,
     };
     match inner {
-        Some(inner) => insert(inner, rest, &join(path, &step.name), value),
-        None => Err(no_such_place(step, path, kind)),
+        Some(inner) => insert(report, inner, rest, &join(path, &step.name), value),
+        None => report.error(no_such_place(step, path, kind)),
     }
 }
 
