@@ -86,10 +86,10 @@ pub(super) fn parse(report: &mut Report, source: usize, start: usize) -> Option<
     let mut tree = Tree { report, source, start };
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Err(error) => tree.syntax_error(&error),
-        Ok(parsed) => match parsed.value {
-            Some(value) if tree.is_json(text) => tree.node(value, &Path::ROOT),
-            Some(_) => None,
-            None => tree.nothing_there(text.len()),
+        Ok(parsed) => match (parsed.value, loose_character(text)) {
+            (_, Some((range, reason))) => tree.not_json(range, reason),
+            (Some(value), None) => tree.node(value, &Path::ROOT),
+            (None, None) => tree.not_json(Range::new(0, text.len()), "there is no value here"),
         },
     }
 }
@@ -166,44 +166,36 @@ impl Tree<'_> {
     }
 
     fn syntax_error<T>(&mut self, error: &ParseError) -> Option<T> {
-        let span = self.span(error.range());
-        if matches!(error.kind(), ParseErrorKind::NestingDepthExceeded) {
-            return self.too_deep(span);
+        match error.kind() {
+            ParseErrorKind::NestingDepthExceeded => self.too_deep(self.span(error.range())),
+            kind => self.not_json(error.range(), &reason(kind)),
         }
-        self.not_json(span, &reason(error.kind()))
     }
 
-    fn nothing_there<T>(&mut self, len: usize) -> Option<T> {
-        self.not_json(self.span(Range { start: 0, end: len }), "there is no value here")
-    }
-
-    /// Whether `text` is JSON also for a second, stricter reader: the parser above lets control
-    /// characters in strings and uncommon white space pass.
-    fn is_json(&mut self, text: &str) -> bool {
-        let Err(error) = serde_json::from_str::<serde::de::IgnoredAny>(text) else { return true };
-        if error.to_string().starts_with("recursion limit") {
-            return true; // `node` reports this with our own limit, which is lower
-        }
-        let message = error.to_string();
-        let at = offset(text, error.line(), error.column());
-        let next = text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-        let span = self.span(Range { start: at, end: at + next });
-        self.not_json::<()>(span, message.split(" at line ").next().unwrap_or(&message));
-        false
-    }
-
-    fn not_json<T>(&mut self, span: Span, reason: &str) -> Option<T> {
+    fn not_json<T>(&mut self, range: Range, reason: &str) -> Option<T> {
+        let span = self.span(range);
         self.report
             .error(Finding::new("scene::syntax", format!("not valid JSON: {reason}")).at(span, "here"));
         None
     }
 }
 
-/// Byte offset of the character that holds the one-based `column`, in bytes, of `line`.
-fn offset(text: &str, line: usize, column: usize) -> usize {
-    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-    let at = (before + column.saturating_sub(1)).min(text.len());
-    (0..=at).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
+/// What the parser lets pass though it is not JSON: control characters in strings, and white space
+/// of other kinds than space, tab and line end. `text` has passed the parser.
+fn loose_character(text: &str) -> Option<(Range, &'static str)> {
+    let (mut in_string, mut escaped) = (false, false);
+    for (start, c) in text.char_indices() {
+        let range = Range { start, end: start + c.len_utf8() };
+        match c {
+            '"' if !escaped => in_string = !in_string,
+            '\0'..='\x1f' if in_string => return Some((range, "control characters in text must be escaped")),
+            ' ' | '\t' | '\n' | '\r' | '!'..='~' => {}
+            _ if !in_string => return Some((range, "this character is not allowed here")),
+            _ => {}
+        }
+        escaped = in_string && c == '\\' && !escaped;
+    }
+    None
 }
 
 /// What is wrong, in words that say what to change.
