@@ -6,7 +6,7 @@ use super::color::{Color, add, hex, mix, ramp, scale, smooth};
 use super::environment::Ray;
 use super::noise::Noise;
 
-/// Toward the sun: low over the lake, a little to the right of +z.
+/// Toward the sun: low over the lake, from +z a little toward +x. Of length 1.
 pub(super) const SUN: Ray = [0.222_5, 0.148, 0.963_6];
 /// Depth of the lake's surface below the eye, metres.
 const LAKE: f64 = 6.0;
