@@ -121,6 +121,17 @@ fn a_file_cut_short_is_refused_at_every_length() {
     }
 }
 
+/// A thumbnail in front of the picture has an end of its own, which is not the end of the file.
+#[test]
+fn the_end_of_a_thumbnail_is_not_the_end_of_a_jpeg() {
+    let mut bytes = encode(&rgb(20, 20), ImageFormat::Jpeg);
+    let plain = texels(&bytes);
+    bytes.splice(2..2, [0xFF, 0xE1, 0, 6, 0xFF, 0xD8, 0xFF, 0xD9]);
+    assert_eq!(texels(&bytes), plain);
+    bytes.truncate(bytes.len() - 2);
+    assert_refused(&bytes, "cut short");
+}
+
 #[test]
 fn a_corrupt_checksum_is_refused() {
     let mut bytes = png(rgb(20, 20));
