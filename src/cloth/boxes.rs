@@ -204,7 +204,7 @@ mod tests {
         let mut groups = std::collections::BTreeMap::<[i64; 3], Vec<usize>>::new();
         for p in 0..x.len() {
             let at = x.get(p);
-            let key = [0, 1, 2].map(|c| (at[c] / size[c]).floor() as i64);
+            let key = [0, 1, 2].map(|c| number((at[c] / size[c]).floor()));
             groups.entry(key).or_default().push(p);
         }
         groups.into_values().filter(|group| group.len() > 1).collect()
