@@ -219,3 +219,78 @@ fn lower_first(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(text: &str) -> (Option<Node>, Vec<crate::error::Diagnostic>) {
+        let mut report = Report::default();
+        let source = report.add_source("x.json", text);
+        let node = parse(&mut report, source, 0);
+        (node, report.finish().err().map(|error| error.diagnostics).unwrap_or_default())
+    }
+
+    #[test]
+    fn every_value_knows_its_place() {
+        let text = r#"{"a": [1, "ü\n", {"b": null}]}"#;
+        let (node, errors) = read(text);
+        let node = node.unwrap();
+        assert_eq!(errors, []);
+        let place = |path: &str| {
+            let span = node.get(path).unwrap().span;
+            &text[span.start..span.end]
+        };
+        assert_eq!(place("a"), r#"[1, "ü\n", {"b": null}]"#);
+        assert_eq!((place("a.0"), place("a.1"), place("a.2.b")), ("1", r#""ü\n""#, "null"));
+        assert_eq!(node.get("a.1").unwrap().json, Json::Text("ü\n".into()));
+        assert_eq!(node.get("a.3"), None);
+    }
+
+    #[test]
+    fn the_first_of_two_equal_keys_is_kept() {
+        let (node, errors) = read(r#"{"a": {"b": 1, "b": 2, "\u0062": 3}}"#);
+        assert_eq!(node.unwrap().get("a.b").unwrap().json, Json::Number(1.0));
+        let found: Vec<_> = errors.iter().map(|e| (e.code, e.column, e.key.as_str())).collect();
+        assert_eq!(found, [("scene::duplicate_key", 16, "a.b"), ("scene::duplicate_key", 24, "a.b")]);
+    }
+
+    /// Pieces of JSON and what is nearly JSON, to be strung together.
+    fn pieces() -> impl Strategy<Value = String> {
+        let pieces = [
+            "{", "}", "[", "]", ",", ":", " ", "\n", "\t", "\u{b}", "\u{a0}", "\u{feff}", "\"a\"", "\"",
+            "\\", "\\u", "\\n", "d800", "0041", "1", "0", "-", "+", ".", "e", "E", "5", "true", "null", "x",
+            "'", "/", "*", "\0", "\r",
+        ];
+        prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..9).prop_map(|words| words.concat())
+    }
+
+    fn agrees_with_serde_json(text: &str) -> Result<(), TestCaseError> {
+        let (node, errors) = read(text);
+        let theirs: Result<serde_json::Value, _> = serde_json::from_str(text);
+        // Its numbers end where binary64 does; then only its grammar can be compared.
+        let theirs = match &theirs {
+            Err(e) if e.to_string().starts_with("number out of range") => {
+                prop_assume!(!text.contains('\\'));
+                serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok()
+            }
+            theirs => theirs.is_ok(),
+        };
+        let ours = node.is_some() && errors.iter().all(|e| e.code == "scene::duplicate_key");
+        prop_assert_eq!(ours, theirs, "{:?}", text);
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn what_is_json_is_decided_as_serde_json_does(text in pieces()) {
+            agrees_with_serde_json(&text)?;
+            agrees_with_serde_json(&format!("[{text}]"))?;
+            agrees_with_serde_json(&format!("{{\"k\": {text}}}"))?;
+            agrees_with_serde_json(&format!("\"{text}\""))?;
+        }
+    }
+}
