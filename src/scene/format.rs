@@ -277,6 +277,7 @@ mod tests {
             }
             theirs => theirs.is_ok(),
         };
+        let ours = node.is_some() && errors.iter().all(|e| e.code == "scene::duplicate_key");
         prop_assert_eq!(ours, theirs, "{:?}", text);
         Ok(())
     }
