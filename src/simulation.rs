@@ -255,3 +255,19 @@ impl Stopwatch {
         *since = now;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn infinite_and_undefined_components_are_found() {
+        for bad in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let mut points = Points::zeros(5).unwrap();
+            assert_eq!(first_non_finite(&points), None, "all are zero");
+            points.z[3] = bad;
+            points.x[4] = bad;
+            assert_eq!(first_non_finite(&points), Some(3), "{bad}");
+        }
+    }
+}

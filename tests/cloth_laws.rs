@@ -97,6 +97,11 @@ fn free_fall_has_its_closed_form_and_its_first_order_error() {
             let error = (1.0 - y) - G * t * t / 2.0;
             assert!((error - G * h * t / 2.0).abs() < 1e-10, "step {k}: off by {error}");
         }
+        let (energy, mass) = (simulation.energy(), 12.0 * mass_of(&scene));
+        let kinetic = mass * (G * h * k) * (G * h * k) / 2.0;
+        assert!((energy.kinetic - kinetic).abs() < 1e-8 * kinetic, "step {k}: {energy:?}");
+        assert!((energy.gravitational - mass * G * (1.0 - drop)).abs() < 1e-7, "step {k}: {energy:?}");
+        assert!(energy.spring < 1e-9, "step {k}: {energy:?}");
     }
 }
 
@@ -358,9 +363,9 @@ fn time_runs_backwards_without_damping_and_contact() {
 
 #[test]
 fn a_cloth_at_rest_is_stable_exactly_from_the_predicted_steps_on() {
-    for (points, ks) in [(12, 2e5), (8, 1e6)] {
+    for (points, ks, percent) in [(12, 2e5, 0.0), (8, 1e6, 0.0), (8, 1e6, 60.0)] {
         let mut scene = springs_only(points, points);
-        cloth(&mut scene).ks = ks;
+        (cloth(&mut scene).ks, cloth(&mut scene).damping) = (ks, percent);
         let stability = Stability::new(scene.cloth.as_ref().unwrap(), &scene.sim).unwrap();
         let fewest = stability.fewest_steps(stability.omega_rest);
         let growth = |steps: f64| {

@@ -293,7 +293,7 @@ prop_compose! {
 
 prop_compose! {
     fn any_cloth()(
-        points in (2_usize..9, 2_usize..9),
+        points in prop_oneof![4 => (2_usize..9, 2_usize..9), 1 => (9_usize..40, 2_usize..5)],
         size in (0.05_f64..2.0, 0.05_f64..2.0),
         vertical in any::<bool>(),
         kinds in any::<(bool, bool, bool)>(),
