@@ -22,8 +22,8 @@
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
 //! # Why the sign of a zero never shows
-//! `x` and `last` are never -0.0: they start at +0.0 or above and below zero, and every update is
-//! `x + something` or `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
+//! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
+//! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 use crate::error::{Error, Kind, Result};
