@@ -18,6 +18,10 @@ use crate::{
     shader::glsl::{FragmentProgram, Vec3},
 };
 
+/// A tile's side as the fragment list counts pixels.
+#[expect(clippy::cast_possible_truncation, reason = "a tile is 64 pixels wide")]
+const TILE_SIDE: u16 = TILE as u16;
+
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
 #[derive(Debug, Default)]
@@ -126,8 +130,8 @@ fn varyings<L: Lane, const N: usize>(
         return result;
     }
     let [x0, y0] = input.origin.map(<L::Double as Lane>::splat);
-    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE as u16));
-    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE as u16));
+    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
+    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
     let mut previous = 0;
     for (i, &primitive) in primitives.iter().enumerate() {
         if primitive == previous || primitives[..i].contains(&primitive) {
