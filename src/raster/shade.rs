@@ -54,14 +54,18 @@ impl FragmentList {
         self.primitives.clear();
     }
 
-    /// Adds the pixels of a tile with one sample whose visible primitive is in `handles`.
-    pub(super) fn add_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
+    /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`.
+    pub(super) fn list_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
+        self.pixels.resize(visible.len(), 0);
+        self.primitives.resize(visible.len(), 0);
+        let mut len = 0;
         for (pixel, &primitive) in (0..).zip(visible) {
-            if handles.contains(&primitive) {
-                self.pixels.push(pixel);
-                self.primitives.push(primitive);
-            }
+            // Written always and kept only if it is one: no branch to mispredict.
+            (self.pixels[len], self.primitives[len]) = (pixel, primitive);
+            len += usize::from(handles.contains(&primitive));
         }
+        self.pixels.truncate(len);
+        self.primitives.truncate(len);
     }
 
     /// Adds the primitives that the samples of a pixel see, each once.
