@@ -3,9 +3,14 @@
 use nalgebra::{Matrix4, Vector3};
 
 use crate::{
+    cloth::grid::{self, Grid},
+    error::Result,
     math::{sin_cos_degrees, tan},
-    scene::{Camera as Settings, Cloth, Orientation, Scene, Vec3},
+    scene::{Camera as Settings, Cloth, Scene, Vec3},
 };
+
+/// A scene without a cloth is seen as if the stock cloth (1 m × 1 m, at y = 1) were there.
+const TARGET_WITHOUT_CLOTH: Vec3 = Vec3::new(0.5, 0.5, 0.5);
 
 /// A 4 × 4 matrix as GLSL holds it: four columns.
 pub type Columns = [[f32; 4]; 4];
@@ -21,9 +26,16 @@ pub struct Camera {
 
 impl Camera {
     /// The camera of a scene, for the picture size that the scene asks for.
-    pub fn of(scene: &Scene) -> Self {
+    ///
+    /// # Errors
+    /// A cloth that does not fit in memory.
+    pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
-        let target = settings.target.unwrap_or_else(|| default_target(scene.cloth.as_ref()));
+        let target = match (settings.target, &scene.cloth) {
+            (Some(target), _) => target,
+            (None, Some(cloth)) => default_target(cloth)?,
+            (None, None) => TARGET_WITHOUT_CLOTH,
+        };
         let distance = settings.distance.unwrap_or_else(|| default_distance(scene.cloth.as_ref()));
         let (sin_polar, cos_polar) = sin_cos_degrees(settings.polar);
         let (sin_azimuth, cos_azimuth) = sin_cos_degrees(settings.azimuth);
@@ -37,7 +49,7 @@ impl Camera {
         };
         let [width, height] = scene.render.size.map(f64::from);
         let product = projection(settings, width / height) * view(&eye, &target, &up);
-        Self { view_projection: columns(&product), position: [eye.x, eye.y, eye.z].map(round) }
+        Ok(Self { view_projection: columns(&product), position: [eye.x, eye.y, eye.z].map(round) })
     }
 }
 
@@ -47,10 +59,22 @@ fn view(eye: &Vec3, target: &Vec3, up: &Vec3) -> Matrix4<f64> {
     let x = unit(up.cross(&z));
     let y = z.cross(&x);
     Matrix4::new(
-        x.x, x.y, x.z, -x.dot(eye), //
-        y.x, y.y, y.z, -y.dot(eye), //
-        z.x, z.y, z.z, -z.dot(eye), //
-        0.0, 0.0, 0.0, 1.0,
+        x.x,
+        x.y,
+        x.z,
+        -x.dot(eye), //
+        y.x,
+        y.y,
+        y.z,
+        -y.dot(eye), //
+        z.x,
+        z.y,
+        z.z,
+        -z.dot(eye), //
+        0.0,
+        0.0,
+        0.0,
+        1.0,
     )
 }
 
@@ -61,23 +85,31 @@ fn projection(settings: &Settings, aspect: f64) -> Matrix4<f64> {
     let k = 1.0 / tan_half_vfov;
     let (n, f) = (settings.near, settings.far);
     Matrix4::new(
-        k / aspect, 0.0, 0.0, 0.0, //
-        0.0, k, 0.0, 0.0, //
-        0.0, 0.0, -(n + f) / (f - n), -2.0 * n * f / (f - n), //
-        0.0, 0.0, -1.0, 0.0,
+        k / aspect,
+        0.0,
+        0.0,
+        0.0, //
+        0.0,
+        k,
+        0.0,
+        0.0, //
+        0.0,
+        0.0,
+        -(n + f) / (f - n),
+        -2.0 * n * f / (f - n), //
+        0.0,
+        0.0,
+        -1.0,
+        0.0,
     )
 }
 
-/// The mean of the starting points, at half its height. A scene without a cloth is seen as if the
-/// stock cloth (1 m × 1 m, at y = 1) were there.
-fn default_target(cloth: Option<&Cloth>) -> Vec3 {
-    cloth.map_or(Vec3::new(0.5, 0.5, 0.5), |cloth| {
-        let (half_width, half_height) = (cloth.width / 2.0, cloth.height / 2.0);
-        match cloth.orientation {
-            Orientation::Horizontal => Vec3::new(half_width, 0.5, half_height),
-            Orientation::Vertical => Vec3::new(half_width, half_height / 2.0, 0.0),
-        }
-    })
+/// The mean of the starting points, at half its height.
+fn default_target(cloth: &Cloth) -> Result<Vec3> {
+    let start = grid::start(cloth, Grid::new(cloth)?)?;
+    let sum = (0..start.len()).fold(Vec3::zeros(), |sum, i| sum + start.get(i));
+    let mean = sum / start.len() as f64;
+    Ok(Vec3::new(mean.x, mean.y / 2.0, mean.z))
 }
 
 /// 1.8 times the larger side of the cloth, in metres.

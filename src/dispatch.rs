@@ -6,21 +6,27 @@
 //! compiled for AVX2 is sound only on a CPU that has it, which is checked right before the call.
 #![expect(unsafe_code, reason = "see the module's first lines")]
 
-/// Calls `work`, compiled for AVX2 where the CPU has it.
-///
-/// Only what is inlined into `work` is compiled twice: mark hot callees `#[inline(always)]`.
+/// A piece of work with its input. A trait and not a closure, because only a method marked
+/// `#[inline(always)]` is sure to be compiled into the copy for AVX2.
+pub(crate) trait Work {
+    /// Does the work. Implementations and their hot callees are `#[inline(always)]`.
+    fn run(self);
+}
+
+/// Runs `work`, compiled for AVX2 where the CPU has it.
 #[inline]
-pub(crate) fn dispatch<R>(work: impl FnOnce() -> R) -> R {
+pub(crate) fn dispatch(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the CPU was just found to have AVX2, the only feature that `avx2` adds.
-        return unsafe { avx2(work) };
+        unsafe { avx2(work) };
+        return;
     }
-    work()
+    work.run();
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn avx2<R>(work: impl FnOnce() -> R) -> R {
-    work()
+fn avx2(work: impl Work) {
+    work.run();
 }

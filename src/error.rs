@@ -47,7 +47,7 @@ pub struct Diagnostic {
     pub code: &'static str,
     /// What is wrong, one sentence without a full stop.
     pub message: String,
-    /// File name as given, or `--set`, `--patch FILE`.
+    /// File name as given (of the scene or of a patch), or `--set PATH=JSON`.
     pub file: String,
     /// One-based line; 0 when there is no place in a text.
     pub line: usize,

@@ -36,6 +36,8 @@ pub trait Lane:
     fn narrow(double: Self::Double) -> Self;
     /// Lane `index`, widened to binary64 (exact).
     fn lane(self, index: usize) -> f64;
+    /// Writes the lanes, rounded to f32, to the first [`Lane::LANES`] places of `out`.
+    fn store(self, out: &mut [f32]);
     /// Square root.
     fn sqrt(self) -> Self;
     /// Largest whole number that is not above.
@@ -123,6 +125,10 @@ macro_rules! lanes {
                 self.into()
             }
             #[inline(always)]
+            fn store(self, out: &mut [f32]) {
+                out[0] = self as f32;
+            }
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 <$scalar>::sqrt(self)
             }
@@ -163,6 +169,12 @@ macro_rules! lanes {
             #[inline(always)]
             fn lane(self, index: usize) -> f64 {
                 self.0[index].into()
+            }
+            #[inline(always)]
+            fn store(self, out: &mut [f32]) {
+                for (out, value) in out.iter_mut().zip(self.0) {
+                    *out = value as f32;
+                }
             }
             #[inline(always)]
             fn sqrt(self) -> Self {

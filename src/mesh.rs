@@ -8,19 +8,8 @@ use nalgebra::Vector3;
 use crate::{
     cloth::Points,
     math::{cos, sin},
-    scene::{Cloth, Plane, Sphere, Vec3},
+    scene::{Cloth, Needs, Plane, Sphere, Vec3},
 };
-
-/// Which attributes a shader reads besides the position.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Reads {
-    /// `in_normal`
-    pub normal: bool,
-    /// `in_tangent`
-    pub tangent: bool,
-    /// `in_uv`
-    pub uv: bool,
-}
 
 /// Attributes per vertex and the triangles over them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,22 +52,22 @@ impl Mesh {
 
     /// The cloth at `points`: per cell with corners A (x, y), B (x+1, y), C (x, y+1), D (x+1, y+1)
     /// the triangles (A, C, B) and (B, C, D).
-    pub fn cloth(cloth: &Cloth, points: &Points, reads: Reads) -> Self {
+    pub fn cloth(cloth: &Cloth, points: &Points, needs: Needs) -> Self {
         let (w, h) = (cloth.num_width_points, cloth.num_height_points);
         let mut mesh = Self {
             positions: (0..points.len()).map(|i| round(points.get(i))).collect(),
             triangles: grid_triangles(w, h, |a, b, c, d| [[a, c, b], [b, c, d]]),
             ..Self::default()
         };
-        if reads.normal || reads.tangent {
+        if needs.normal || needs.tangent {
             let normals = vertex_normals(points, &mesh.triangles);
-            if reads.tangent {
+            if needs.tangent {
                 mesh.tangents =
                     (0..points.len()).map(|i| round(row_tangent(points, w, i, &normals[i]))).collect();
             }
             mesh.normals = normals.into_iter().map(round).collect();
         }
-        if reads.uv {
+        if needs.uv {
             mesh.uvs = grid_uvs(w, h);
         }
         mesh
@@ -86,7 +75,7 @@ impl Mesh {
 
     /// The unit ball of a sphere's resolution: (lat + 1)(lon + 1) vertices, latitude outer.
     /// With v = i/lat and u = j/lon, λ = πv and θ = 2π((u + 0.5) mod 1).
-    pub fn sphere(sphere: &Sphere, reads: Reads) -> Self {
+    pub fn sphere(sphere: &Sphere, needs: Needs) -> Self {
         let [lat, lon] = sphere.resolution;
         let mut mesh = Self::default();
         for i in 0..=lat {
@@ -97,13 +86,13 @@ impl Mesh {
                 let theta = 2.0 * std::f64::consts::PI * (turn - turn.floor());
                 let normal = Vector3::new(sin(lambda) * sin(theta), cos(lambda), sin(lambda) * cos(theta));
                 mesh.positions.push(round(normal));
-                if reads.normal {
+                if needs.normal {
                     mesh.normals.push(round(normal));
                 }
-                if reads.tangent {
+                if needs.tangent {
                     mesh.tangents.push(round(Vector3::new(cos(theta), 0.0, -sin(theta))));
                 }
-                if reads.uv {
+                if needs.uv {
                     mesh.uvs.push([u, v].map(to_f32));
                 }
             }
@@ -114,7 +103,7 @@ impl Mesh {
     }
 
     /// The 4 m × 4 m square of a plane, a strip of two triangles around its point.
-    pub fn plane(plane: &Plane, reads: Reads) -> Self {
+    pub fn plane(plane: &Plane, needs: Needs) -> Self {
         let n = unit(plane.normal);
         let p = in_plane(&n);
         let c = n.cross(&p);
@@ -122,9 +111,9 @@ impl Mesh {
         let per_corner = |read: bool, value: Vec3| if read { vec![round(value); 4] } else { Vec::new() };
         Self {
             positions: corners.to_vec(),
-            normals: per_corner(reads.normal, n),
-            tangents: per_corner(reads.tangent, -p),
-            uvs: if reads.uv { vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] } else { Vec::new() },
+            normals: per_corner(needs.normal, n),
+            tangents: per_corner(needs.tangent, -p),
+            uvs: if needs.uv { vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] } else { Vec::new() },
             triangles: vec![[0, 1, 2], [2, 1, 3]],
         }
     }

@@ -6,9 +6,10 @@ use super::advance::{advance, start};
 use super::scene::{Moment, SceneArgs};
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
-use crate::mesh::{Mesh, Reads};
+use crate::mesh::Mesh;
 use crate::output::atomic::{self, Content};
 use crate::output::obj;
+use crate::scene::Needs;
 
 /// What `export` takes.
 #[derive(clap::Args)]
@@ -34,7 +35,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut simulation = start(&scene, frames, args.moment.leniency.allow_unstable, session)?;
     advance(&mut simulation, frames, session, |_| Ok(()))?;
     let points = simulation.positions();
-    let mesh = Mesh::cloth(cloth, points, Reads { normal: true, uv: true, tangent: false });
+    let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
     // The simulation's own numbers, which the drawn mesh rounds.
     let positions: Vec<[f64; 3]> = (0..points.len()).map(|i| points.get(i).into()).collect();
     let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;

@@ -125,7 +125,7 @@ pub struct Counters {
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.
     pub boxes_searched: u64,
-    /// Pairs of points whose distance self-collision looked at.
+    /// Pairs of points that shared a box, once a step.
     pub pairs_tested: u64,
     /// Points that self-collision moved.
     pub self_collision_moves: u64,
@@ -133,7 +133,7 @@ pub struct Counters {
     pub object_tests: u64,
     /// Times that an object moved a point.
     pub object_moves: u64,
-    /// Springs that the stretch limit looked at.
+    /// Springs that the stretch limit looked at, once a pass.
     pub springs_checked: u64,
     /// Springs that the stretch limit shortened.
     pub springs_limited: u64,

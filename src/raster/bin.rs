@@ -44,7 +44,10 @@ pub(super) struct Counts {
 }
 
 /// The handle of primitive `index` of chunk `chunk`.
-#[expect(clippy::cast_possible_truncation, reason = "2^18 chunks of 2048 are more than an index buffer holds")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "2^18 chunks of 2048 are more than an index buffer holds"
+)]
 pub(super) fn handle(chunk: usize, index: u32) -> Handle {
     ((chunk as u32) << CHUNK_BITS) + index + 1
 }
@@ -139,7 +142,13 @@ impl Chunk {
         number(index)
     }
 
-    fn set_up_triangle(&mut self, positions: [[f32; 4]; 3], vertices: [u32; 3], source: u32, viewport: &Viewport) {
+    fn set_up_triangle(
+        &mut self,
+        positions: [[f32; 4]; 3],
+        vertices: [u32; 3],
+        source: u32,
+        viewport: &Viewport,
+    ) {
         match viewport.triangle(positions, vertices, source) {
             Ok((triangle, bounds)) => {
                 self.triangles.push(triangle);
@@ -219,7 +228,11 @@ impl Chunk {
 
     /// The varyings of a vertex: the mesh's own come first, then those that clipping made.
     #[inline(always)]
-    pub(super) fn varyings_of<'a, const N: usize>(&'a self, vertex: u32, vertices: &'a VertexBuffer) -> &'a [f32; N] {
+    pub(super) fn varyings_of<'a, const N: usize>(
+        &'a self,
+        vertex: u32,
+        vertices: &'a VertexBuffer,
+    ) -> &'a [f32; N] {
         let (vertex, own) = (vertex as usize, vertices.positions.len());
         let (buffer, index) =
             if vertex < own { (&vertices.varyings, vertex) } else { (&self.clipped_varyings, vertex - own) };

@@ -71,7 +71,10 @@ impl Framebuffer {
     }
 
     /// The values of one buffer in picture order.
-    fn rows<'a, T: 'a>(&'a self, buffer: impl Fn(&'a Tile) -> &'a Vec<T> + Copy) -> impl Iterator<Item = &'a T> {
+    fn rows<'a, T: 'a>(
+        &'a self,
+        buffer: impl Fn(&'a Tile) -> &'a Vec<T> + Copy,
+    ) -> impl Iterator<Item = &'a T> {
         (0..self.height).flat_map(move |y| {
             (0..self.columns).flat_map(move |column| {
                 let tile = &self.tiles[y / TILE * self.columns + column];

@@ -26,7 +26,13 @@ struct Walk {
 }
 
 /// Draws a line into the tile's depth and visibility. One sample: the pixel's first stands for all.
-pub(super) fn draw_line(tile: &mut Tile, line: &Line, bounds: TileBounds, handle: Handle, viewport: &Viewport) {
+pub(super) fn draw_line(
+    tile: &mut Tile,
+    line: &Line,
+    bounds: TileBounds,
+    handle: Handle,
+    viewport: &Viewport,
+) {
     let walk = Walk::of(line, viewport);
     let (rows, columns) = (viewport.height as i64, [tile.left as i64, tile.top as i64]);
     let first_last = |axis_x: bool| {

@@ -16,6 +16,7 @@ mod shade;
 mod tile;
 mod vertex;
 
+use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ use crate::{
 };
 use bin::{CHUNK, Chunk};
 use setup::Viewport;
-use shade::Fragments;
+use shade::{FragmentList, Shade, ShadeInput};
 use vertex::VertexBuffer;
 
 pub use framebuffer::Framebuffer;
@@ -44,7 +45,7 @@ pub enum Primitives<'a> {
 }
 
 type VertexStage<'a> = Box<dyn Fn() -> VertexBuffer + Send + Sync + 'a>;
-type FragmentStage<'a> = Box<dyn Fn(&Fragments<'_>, &mut Vec<[f32; 3]>) + Send + Sync + 'a>;
+type FragmentStage<'a> = Box<dyn Fn(&ShadeInput<'_>, &mut FragmentList) + Send + Sync + 'a>;
 
 /// A mesh with its two programs.
 pub struct DrawCall<'a> {
@@ -66,8 +67,8 @@ impl<'a> DrawCall<'a> {
         Self {
             primitives,
             vertex_stage: Box::new(move || vertex::run(count, &attributes, &vertex_program)),
-            fragment_stage: Box::new(move |fragments, colors| {
-                dispatch(|| shade::shade(fragments, &fragment_program, colors));
+            fragment_stage: Box::new(move |input, list| {
+                dispatch(Shade { input, list, program: &fragment_program, varyings: PhantomData::<[L; N]> });
             }),
         }
     }
@@ -129,9 +130,20 @@ pub fn draw(
     let chunks = assemble(framebuffer, calls, &buffers);
     let binned = Instant::now();
 
-    let scene = TileScene { calls, buffers: &buffers, chunks: &chunks, viewport: viewport(framebuffer), background, ids };
-    let tiles: Vec<TileCost> =
-        framebuffer.tiles.par_iter_mut().enumerate().map(|(index, tile)| resolve::draw_tile(tile, index, &scene)).collect();
+    let scene = TileScene {
+        calls,
+        buffers: &buffers,
+        chunks: &chunks,
+        viewport: viewport(framebuffer),
+        background,
+        ids,
+    };
+    let tiles: Vec<TileCost> = framebuffer
+        .tiles
+        .par_iter_mut()
+        .enumerate()
+        .map(|(index, tile)| resolve::draw_tile(tile, index, &scene))
+        .collect();
 
     let wall = binned.elapsed();
     let raster: Duration = tiles.iter().map(|tile| tile.raster).sum();
@@ -183,7 +195,9 @@ fn assemble(framebuffer: &Framebuffer, calls: &[DrawCall<'_>], buffers: &[Vertex
             Primitives::Triangles(all) => {
                 Chunk::of_triangles((call, first), &all[first..last], &buffers[call], &viewport)
             }
-            Primitives::Lines(all) => Chunk::of_lines((call, first), &all[first..last], &buffers[call], &viewport),
+            Primitives::Lines(all) => {
+                Chunk::of_lines((call, first), &all[first..last], &buffers[call], &viewport)
+            }
         };
         chunk.sort_into_tiles(columns, tiles);
         chunk

@@ -12,30 +12,30 @@ use super::{
     bin::{Handle, handle, place},
     framebuffer::{TILE_PIXELS, Tile},
     line::draw_line,
-    shade::{Fragment, Fragments},
+    shade::{FragmentList, ShadeInput},
     tile::{TileBounds, draw_triangle},
 };
-use crate::dispatch::dispatch;
+use crate::dispatch::{Work, dispatch};
 
 /// Draws one tile.
 pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) -> TileCost {
     let started = Instant::now();
     tile.depth.fill(1.0);
     tile.visible.fill(0);
-    dispatch(|| draw_primitives(tile, index, scene));
+    dispatch(Visibility { tile, index, scene });
     let seen = Instant::now();
     let mut cost = TileCost { raster: seen - started, ..TileCost::default() };
 
-    let mut sums = vec![[0.0; 3]; if scene.viewport.samples > 1 { TILE_PIXELS } else { 0 }];
-    let background = scene.background.map(|c| store(clamp(c)));
-    tile.color.fill(background);
+    let samples = scene.viewport.samples;
+    let mut sums = vec![[0.0; 3]; if samples > 1 { TILE_PIXELS } else { 0 }];
+    tile.color.fill(scene.background.map(|c| store(clamp(c))));
     add_background(tile, scene, &mut sums);
-    let (mut list, mut colors) = (Vec::new(), Vec::new());
+    let mut list = FragmentList::default();
     for call in 0..scene.calls.len() {
         collect_fragments(tile, call, scene, &mut list);
-        shade_fragments(tile, call, scene, &list, &mut colors);
-        write_colors(tile, &list, &colors, scene.viewport.samples, &mut sums);
-        cost.fragments += list.len() as u64;
+        shade_fragments(tile, call, scene, &mut list);
+        dispatch(WriteColors { tile, list: &list, samples, sums: &mut sums });
+        cost.fragments += list.len as u64;
     }
     for (color, sum) in tile.color.iter_mut().zip(&sums) {
         *color = sum.map(store);
@@ -43,25 +43,46 @@ pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) ->
     if scene.ids {
         tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
     }
-    cost.covered = (0..TILE_PIXELS).filter(|&pixel| samples_of(tile, scene, pixel).any(|h| h != 0)).count() as u64;
+    cost.covered = covered(tile, samples);
     cost.shading = seen.elapsed();
     cost
 }
 
 /// Depth and visibility of every primitive that touches the tile, in submission order.
-#[inline(always)]
-fn draw_primitives(tile: &mut Tile, index: usize, scene: &TileScene<'_>) {
-    for (number, chunk) in scene.chunks.iter().enumerate() {
-        for &primitive in chunk.in_tile(index) {
-            let bounds = TileBounds::of(chunk.bounds(primitive), tile);
-            let handle = handle(number, primitive);
-            if let Some(triangle) = chunk.triangles.get(primitive as usize) {
-                draw_triangle(tile, triangle, bounds, handle, &scene.viewport);
-            } else if let Some(line) = chunk.lines.get(primitive as usize) {
-                draw_line(tile, line, bounds, handle, &scene.viewport);
+struct Visibility<'a> {
+    tile: &'a mut Tile,
+    index: usize,
+    scene: &'a TileScene<'a>,
+}
+
+impl Work for Visibility<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { tile, index, scene } = self;
+        for (number, chunk) in scene.chunks.iter().enumerate() {
+            for &primitive in chunk.in_tile(index) {
+                let bounds = TileBounds::of(chunk.bounds(primitive), tile);
+                let handle = handle(number, primitive);
+                if let Some(triangle) = chunk.triangles.get(primitive as usize) {
+                    draw_triangle(tile, triangle, bounds, handle, &scene.viewport);
+                } else if let Some(line) = chunk.lines.get(primitive as usize) {
+                    draw_line(tile, line, bounds, handle, &scene.viewport);
+                }
             }
         }
     }
+}
+
+/// Pixels of which at least one sample sees something.
+fn covered(tile: &Tile, samples: usize) -> u64 {
+    let (first, others) = tile.visible.split_at(TILE_PIXELS);
+    let mut seen: Vec<u32> = first.to_vec();
+    for sample in others.chunks_exact(TILE_PIXELS).take(samples) {
+        for (seen, &handle) in seen.iter_mut().zip(sample) {
+            *seen |= handle;
+        }
+    }
+    seen.iter().map(|&seen| u64::from(seen != 0)).sum()
 }
 
 /// What each sample of a pixel sees.
@@ -70,48 +91,50 @@ fn samples_of<'a>(tile: &'a Tile, scene: &TileScene<'_>, pixel: usize) -> impl I
 }
 
 /// Lists the pixels in which a primitive of draw call `call` is seen, each primitive once a pixel.
-fn collect_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut Vec<Fragment>) {
+fn collect_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
     list.clear();
     let first = scene.chunks.partition_point(|chunk| chunk.call < call);
     let last = scene.chunks.partition_point(|chunk| chunk.call <= call);
     let handles = handle(first, 0)..handle(last, 0);
-    for pixel in 0..TILE_PIXELS {
-        let first_of_pixel = list.len();
-        for primitive in samples_of(tile, scene, pixel).filter(|seen| handles.contains(seen)) {
-            let known = list[first_of_pixel..].iter_mut().find(|fragment| fragment.primitive == primitive);
-            if let Some(fragment) = known {
-                fragment.weight += 1;
-            } else {
-                #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
-                list.push(Fragment { pixel: pixel as u16, weight: 1, primitive });
-            }
+    if scene.viewport.samples == 1 {
+        list.add_visible(&tile.visible, &handles);
+    } else {
+        for pixel in 0..TILE_PIXELS {
+            list.add_pixel(pixel, samples_of(tile, scene, pixel).filter(|seen| handles.contains(seen)));
         }
     }
+    list.finish();
 }
 
 /// Runs the fragment program of a call over its fragments.
-fn shade_fragments(
-    tile: &Tile,
-    call: usize,
-    scene: &TileScene<'_>,
-    list: &[Fragment],
-    colors: &mut Vec<[f32; 3]>,
-) {
-    colors.clear();
+fn shade_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
     #[expect(clippy::cast_precision_loss, reason = "pictures are at most 16384 pixels wide")]
     let origin = [tile.left as f32 + 0.5, scene.viewport.height as f32 - (tile.top as f32 + 0.5)];
-    let fragments = Fragments { list, origin, chunks: scene.chunks, vertices: &scene.buffers[call] };
-    (scene.calls[call].fragment_stage)(&fragments, colors);
+    let input = ShadeInput { origin, chunks: scene.chunks, vertices: &scene.buffers[call] };
+    (scene.calls[call].fragment_stage)(&input, list);
 }
 
 /// Stores colours, or adds them to the pixels' sums by their share of the samples.
-fn write_colors(tile: &mut Tile, list: &[Fragment], colors: &[[f32; 3]], samples: usize, sums: &mut [[f32; 3]]) {
-    for (fragment, color) in list.iter().zip(colors) {
-        let pixel = usize::from(fragment.pixel);
-        if samples == 1 {
-            tile.color[pixel] = color.map(store);
-        } else {
-            add(&mut sums[pixel], *color, f32::from(fragment.weight) / samples as f32);
+struct WriteColors<'a> {
+    tile: &'a mut Tile,
+    list: &'a FragmentList,
+    samples: usize,
+    sums: &'a mut [[f32; 3]],
+}
+
+impl Work for WriteColors<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { tile, list, samples, sums } = self;
+        let [red, green, blue] = &list.colors;
+        let colors = red.iter().zip(green).zip(blue);
+        for (i, (&pixel, ((&r, &g), &b))) in list.pixels[..list.len].iter().zip(colors).enumerate() {
+            let pixel = usize::from(pixel);
+            if samples == 1 {
+                tile.color[pixel] = [store(r), store(g), store(b)];
+            } else {
+                add(&mut sums[pixel], [r, g, b], f32::from(list.weights[i]) / samples as f32);
+            }
         }
     }
 }
@@ -155,6 +178,7 @@ fn clamp(c: f32) -> f32 {
 }
 
 /// 8 bits of a channel in 0..=1: round-half-even(255·c).
+#[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= c <= 1")]
 fn store(c: f32) -> u8 {
     (c * 255.0).round_ties_even() as u8

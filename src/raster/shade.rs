@@ -4,72 +4,145 @@
 //! once, and weighted with 1/w: a = Σ lᵢ·rᵢ·aᵢ / Σ lᵢ·rᵢ. Inside the triangle all weights are
 //! positive, so nothing cancels: the error is below 6 ulp of max |aᵢ| (tested against f64).
 
+use std::{marker::PhantomData, ops::Range};
+
 use super::{
     bin::{Chunk, Handle, place},
+    framebuffer::TILE,
     setup::window_area,
     vertex::VertexBuffer,
 };
 use crate::{
+    dispatch::Work,
     lanes::{Lane, WIDTH},
-    shader::glsl::{FragmentProgram, Vec3, vec3},
+    shader::glsl::{FragmentProgram, Vec3},
 };
 
-/// A pixel of a tile that a primitive is seen in.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Fragment {
+/// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
+/// lists are filled up to a multiple of eight by repeating the last fragment.
+#[derive(Debug, Default)]
+pub(super) struct FragmentList {
+    /// How many fragments are meant.
+    pub(super) len: usize,
     /// Place of the pixel in the tile.
-    pub(super) pixel: u16,
+    pub(super) pixels: Vec<u16>,
     /// Samples of the pixel in which the primitive is seen.
-    pub(super) weight: u16,
-    pub(super) primitive: Handle,
+    pub(super) weights: Vec<u8>,
+    /// The primitives.
+    pub(super) primitives: Vec<Handle>,
+    /// Colours, one plane a channel, 0..=1: what the fragment stage puts out.
+    pub(super) colors: [Vec<f32>; 3],
 }
 
-/// The fragments of one draw call in one tile, and what is needed to shade them.
-pub(super) struct Fragments<'a> {
-    pub(super) list: &'a [Fragment],
+/// What the fragment stage needs besides the list.
+pub(super) struct ShadeInput<'a> {
     /// Window position (y up) of the centre of the tile's first pixel.
     pub(super) origin: [f32; 2],
     pub(super) chunks: &'a [Chunk],
     pub(super) vertices: &'a VertexBuffer,
 }
 
-/// Shades all fragments; colours are clamped to 0..=1, NaN is 0.
-#[inline(always)]
-pub(super) fn shade<L: Lane, const N: usize>(
-    fragments: &Fragments<'_>,
-    program: &impl FragmentProgram<L, N>,
-    colors: &mut Vec<[f32; 3]>,
-) {
-    for batch in fragments.list.chunks(L::LANES) {
-        let color = program(&varyings::<L, N>(fragments, batch));
-        let Vec3 { x, y, z } = vec3(clamp(color.x), clamp(color.y), clamp(color.z));
-        #[expect(clippy::cast_possible_truncation, reason = "stored colours are made from f32")]
-        colors.extend((0..batch.len()).map(|i| [x.lane(i) as f32, y.lane(i) as f32, z.lane(i) as f32]));
+impl FragmentList {
+    /// Empties the list.
+    pub(super) fn clear(&mut self) {
+        self.pixels.clear();
+        self.weights.clear();
+        self.primitives.clear();
+    }
+
+    /// Adds the pixels of a tile with one sample whose visible primitive is in `handles`.
+    pub(super) fn add_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
+        for (pixel, &primitive) in (0..).zip(visible) {
+            if handles.contains(&primitive) {
+                self.pixels.push(pixel);
+                self.primitives.push(primitive);
+            }
+        }
+    }
+
+    /// Adds the primitives that the samples of a pixel see, each once.
+    pub(super) fn add_pixel(&mut self, pixel: usize, seen: impl Iterator<Item = Handle>) {
+        let first = self.primitives.len();
+        for primitive in seen {
+            if let Some(known) = self.primitives[first..].iter().position(|&other| other == primitive) {
+                self.weights[first + known] += 1;
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
+                self.pixels.push(pixel as u16);
+                self.weights.push(1);
+                self.primitives.push(primitive);
+            }
+        }
+    }
+
+    /// Fills the lists up and makes room for the colours.
+    pub(super) fn finish(&mut self) {
+        self.len = self.pixels.len();
+        let padded = self.len.next_multiple_of(WIDTH);
+        if let (Some(&pixel), Some(&primitive)) = (self.pixels.last(), self.primitives.last()) {
+            self.pixels.resize(padded, pixel);
+            self.primitives.resize(padded, primitive);
+        }
+        for plane in &mut self.colors {
+            plane.resize(padded, 0.0);
+        }
     }
 }
 
-/// The varyings of up to eight fragments, which may belong to several triangles.
+/// Shades all fragments of a list; colours are clamped to 0..=1, NaN is 0.
+pub(super) struct Shade<'a, L, const N: usize, P> {
+    pub(super) input: &'a ShadeInput<'a>,
+    pub(super) list: &'a mut FragmentList,
+    pub(super) program: &'a P,
+    pub(super) varyings: PhantomData<[L; N]>,
+}
+
+impl<L: Lane, const N: usize, P: FragmentProgram<L, N>> Work for Shade<'_, L, N, P> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { input, list, program, .. } = self;
+        let FragmentList { pixels, primitives, colors: [red, green, blue], .. } = list;
+        let groups = pixels.chunks_exact(L::LANES).zip(primitives.chunks_exact(L::LANES));
+        let colors = red.chunks_exact_mut(L::LANES).zip(green.chunks_exact_mut(L::LANES));
+        let colors = colors.zip(blue.chunks_exact_mut(L::LANES));
+        for ((pixels, primitives), ((red, green), blue)) in groups.zip(colors) {
+            let Vec3 { x, y, z } = program(&varyings::<L, N>(input, pixels, primitives));
+            clamp(x).store(red);
+            clamp(y).store(green);
+            clamp(z).store(blue);
+        }
+    }
+}
+
+/// The varyings of one group of fragments, which may belong to several triangles.
 #[inline(always)]
-fn varyings<L: Lane, const N: usize>(fragments: &Fragments<'_>, batch: &[Fragment]) -> [L; N] {
+fn varyings<L: Lane, const N: usize>(
+    input: &ShadeInput<'_>,
+    pixels: &[u16],
+    primitives: &[Handle],
+) -> [L; N] {
     let mut result = [L::splat(0.0); N];
     if N == 0 {
         return result;
     }
-    let mut left = [false; WIDTH];
-    left[..batch.len()].fill(true);
-    let [x0, y0] = fragments.origin.map(<L::Double as Lane>::splat);
-    let x = x0 + L::Double::from_fn(|i| f32::from(batch.get(i).map_or(0, |f| f.pixel % 64)));
-    let y = y0 - L::Double::from_fn(|i| f32::from(batch.get(i).map_or(0, |f| f.pixel / 64)));
-    while let Some(next) = left.iter().position(|&left| left) {
-        let primitive = batch[next].primitive;
-        let mask = std::array::from_fn(|i| batch.get(i).is_some_and(|f| f.primitive == primitive));
-        let at = interpolate::<L, N>(fragments, primitive, x, y);
-        for (result, at) in result.iter_mut().zip(at) {
-            *result = result.replace(&mask, at);
+    let [x0, y0] = input.origin.map(<L::Double as Lane>::splat);
+    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE as u16));
+    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE as u16));
+    let mut previous = 0;
+    for (i, &primitive) in primitives.iter().enumerate() {
+        if primitive == previous || primitives[..i].contains(&primitive) {
+            continue;
         }
-        for (left, mask) in left.iter_mut().zip(mask) {
-            *left &= !mask;
+        let at = interpolate::<L, N>(input, primitive, x, y);
+        if i == 0 {
+            result = at;
+        } else {
+            let mask = std::array::from_fn(|i| primitives.get(i).is_some_and(|&other| other == primitive));
+            for (result, at) in result.iter_mut().zip(at) {
+                *result = result.replace(&mask, at);
+            }
         }
+        previous = primitive;
     }
     result
 }
@@ -77,13 +150,13 @@ fn varyings<L: Lane, const N: usize>(fragments: &Fragments<'_>, batch: &[Fragmen
 /// The varyings of one triangle at window positions (x, y).
 #[inline(always)]
 fn interpolate<L: Lane, const N: usize>(
-    fragments: &Fragments<'_>,
+    input: &ShadeInput<'_>,
     primitive: Handle,
     x: L::Double,
     y: L::Double,
 ) -> [L; N] {
     let (chunk, index) = place(primitive);
-    let chunk = &fragments.chunks[chunk];
+    let chunk = &input.chunks[chunk];
     let triangle = &chunk.triangles[index];
     let [a, b, c] = &triangle.window;
     let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
@@ -99,7 +172,7 @@ fn interpolate<L: Lane, const N: usize>(
     let w1 = L::narrow(l1) * L::splat(b.r);
     let w2 = L::narrow(l2) * L::splat(c.r);
     let w = L::splat(1.0) / (w0 + w1 + w2);
-    let [a0, a1, a2] = triangle.vertices.map(|v| chunk.varyings_of::<N>(v, fragments.vertices));
+    let [a0, a1, a2] = triangle.vertices.map(|v| chunk.varyings_of::<N>(v, input.vertices));
     std::array::from_fn(|k| (w0 * L::splat(a0[k]) + w1 * L::splat(a1[k]) + w2 * L::splat(a2[k])) * w)
 }
 

@@ -42,8 +42,9 @@ pub(super) struct TileBounds {
 impl TileBounds {
     /// Cuts picture bounds to a tile that they touch.
     pub(super) fn of(bounds: Bounds, tile: &Tile) -> Self {
-        let within =
-            |[first, last]: [usize; 2], start: usize| [first.max(start) - start, (last - start).min(TILE - 1)];
+        let within = |[first, last]: [usize; 2], start: usize| {
+            [first.max(start) - start, (last - start).min(TILE - 1)]
+        };
         Self { x: within(bounds.x, tile.left), y: within(bounds.y, tile.top) }
     }
 }
@@ -86,34 +87,54 @@ fn draw_sample(
         let row = base + y * TILE;
         for x in (bounds.x[0]..=bounds.x[1]).step_by(WIDTH) {
             let x = x.min(TILE - WIDTH);
-            let inside = covered(edges, x, y);
-            if inside == [false; WIDTH] {
+            let edges = edge_signs(edges, x, y);
+            if edges.iter().fold(-1, |all, e| all & e) < 0 {
                 continue;
             }
-            let window_x: [f64; WIDTH] =
-                std::array::from_fn(|i| (tile.left + x + i) as f64 + dx - plane.origin[0]);
-            let depths = &mut tile.depth[row + x..row + x + WIDTH];
-            let visible = &mut tile.visible[row + x..row + x + WIDTH];
-            for i in 0..WIDTH {
-                #[expect(clippy::cast_possible_truncation, reason = "the depth buffer is f32")]
-                let z = (row_depth + plane.column * window_x[i]) as f32;
-                let pass = inside[i] & (z < depths[i]);
-                depths[i] = if pass { z } else { depths[i] };
-                visible[i] = if pass { handle } else { visible[i] };
-            }
+            let (Some(depths), Some(visible)) =
+                (tile.depth[row + x..].first_chunk_mut(), tile.visible[row + x..].first_chunk_mut())
+            else {
+                continue;
+            };
+            let window_x = (tile.left + x) as f64 + dx - plane.origin[0];
+            depth_test(&edges, row_depth, plane.column, window_x, handle, depths, visible);
         }
     }
 }
 
-/// Which of eight pixels of row `y` from column `x` are inside of all edges.
+/// Per pixel, a number that is negative if the pixel is outside of any edge: eight pixels of row
+/// `y` from column `x`.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "x and y are below 64")]
-fn covered(edges: &[Edge; 3], x: usize, y: usize) -> [bool; WIDTH] {
-    let starts = edges.map(|edge| edge.at + edge.column * x as i32 + edge.row * y as i32);
-    std::array::from_fn(|i| {
-        let value = |k: usize| starts[k] + edges[k].column * i as i32;
-        (value(0) | value(1) | value(2)) >= 0
-    })
+fn edge_signs(edges: &[Edge; 3], x: usize, y: usize) -> [i32; WIDTH] {
+    let start = |edge: &Edge| edge.at + edge.column * x as i32 + edge.row * y as i32;
+    let (a, b, c) = (start(&edges[0]), start(&edges[1]), start(&edges[2]));
+    let mut signs = [0; WIDTH];
+    for (i, sign) in signs.iter_mut().enumerate() {
+        let i = i as i32;
+        *sign = (a + edges[0].column * i) | (b + edges[1].column * i) | (c + edges[2].column * i);
+    }
+    signs
+}
+
+/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the depth buffer is f32")]
+fn depth_test(
+    edges: &[i32; WIDTH],
+    row_depth: f64,
+    column_depth: f64,
+    window_x: f64,
+    handle: Handle,
+    depths: &mut [f32; WIDTH],
+    visible: &mut [Handle; WIDTH],
+) {
+    for i in 0..WIDTH {
+        let z = (row_depth + column_depth * (window_x + i as f64)) as f32;
+        let pass = (edges[i] >= 0) & (z < depths[i]);
+        depths[i] = if pass { z } else { depths[i] };
+        visible[i] = if pass { handle } else { visible[i] };
+    }
 }
 
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.

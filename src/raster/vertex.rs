@@ -2,11 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::{
-    dispatch::dispatch,
-    mesh::Attributes,
-    shader::glsl::VertexProgram,
-};
+use crate::{mesh::Attributes, shader::glsl::VertexProgram};
 
 /// What the vertex stage puts out.
 #[derive(Clone, Debug)]
@@ -32,11 +28,9 @@ pub(super) fn run<const N: usize>(
     let mut varyings = vec![[0.0; N]; count];
     let groups = positions.par_chunks_mut(GROUP).zip(varyings.par_chunks_mut(GROUP)).enumerate();
     groups.for_each(|(group, (positions, varyings))| {
-        dispatch(|| {
-            for (i, (position, varying)) in positions.iter_mut().zip(varyings).enumerate() {
-                (*position, *varying) = program(&attributes(group * GROUP + i));
-            }
-        });
+        for (i, (position, varying)) in positions.iter_mut().zip(varyings).enumerate() {
+            (*position, *varying) = program(&attributes(group * GROUP + i));
+        }
     });
     VertexBuffer { positions, varyings: varyings.into_flattened(), stride: N }
 }

@@ -1,9 +1,10 @@
 //! Every key of a scene file: one line each, with its default and what it must be.
 
+use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
 use super::names::{DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::reader::Object;
-use super::rule::{Choice, Coded, Count, Counts, Direction, Flag, GridPoints, Name, Number, OrNull, Vector};
+use super::scalar::{Choice, Coded, Count, Flag, Name, Number};
 use super::{
     Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision, Render,
     Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,

@@ -1,22 +1,28 @@
 //! What a scene is: the validated, strongly typed form of a scene file.
 //!
-//! Data flows `text -> format -> load (diagnostics) -> Scene -> Plan`. A [`Scene`] exists only
+//! Data flows `text -> format -> patch -> fields -> checks -> Scene -> Plan`. A [`Scene`] exists only
 //! when every value in it is finite and in range, so nothing further down checks input again.
+//! Where a range below has no upper end, it ends at 1e15; "> 0" means at least 1e-15, so that
+//! squares and quotients of such numbers stay finite too.
 
 mod checks;
+mod compound;
 mod fields;
 mod format;
 mod load;
 mod names;
 mod nearest;
 mod patch;
+mod path;
 mod plan;
 mod range;
 mod reader;
 mod render;
 mod report;
 mod rule;
+mod scalar;
 mod source;
+mod words;
 
 use nalgebra::Vector3;
 
@@ -53,7 +59,7 @@ pub struct Cloth {
     pub width: f64,
     /// Extent along the grid's y, in metres (> 0).
     pub height: f64,
-    /// Points along x (>= 2): `W` of the method.
+    /// Points along x (>= 2): `W` of the method. `W` x `H` is at most [`MAX_POINTS`].
     pub num_width_points: usize,
     /// Points along y (>= 2): `H` of the method.
     pub num_height_points: usize,
@@ -61,7 +67,7 @@ pub struct Cloth {
     pub thickness: f64,
     /// How the cloth lies at the start.
     pub orientation: Orientation,
-    /// Grid points `[x, y]` that never move.
+    /// Grid points `[x, y]` that never move, each once.
     pub pinned: Vec<[usize; 2]>,
     /// Percent of a point's displacement that is lost per step (0..=100).
     pub damping: f64,
@@ -97,7 +103,7 @@ pub struct Sphere {
     pub radius: f64,
     /// Part of the sliding that contact takes away (0..=1).
     pub friction: f64,
-    /// Latitude and longitude counts of the drawn mesh (latitude >= 2, longitude >= 3).
+    /// Latitude and longitude counts of the drawn mesh (latitude 2..=2048, longitude 3..=2048).
     pub resolution: [u32; 2],
     /// What the ball looks like.
     pub material: Material,
@@ -119,9 +125,9 @@ pub struct Plane {
 /// How the cloth is moved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sim {
-    /// Frames per second of simulated time (> 0).
+    /// Frames per second of simulated time (1e-6..=1e9).
     pub fps: f64,
-    /// Steps per frame (>= 1): `T` of the method.
+    /// Steps per frame (1..=1e9): `T` of the method.
     pub steps_per_frame: u32,
     /// Acceleration, in m/s².
     pub gravity: Vec3,
@@ -133,9 +139,9 @@ pub struct Sim {
     pub start: Start,
     /// What the damping percentage refers to.
     pub damping: Damping,
-    /// Largest strain left by the stretch limit (0.1 = 10 %), or none.
+    /// Largest strain left by the stretch limit (>= 0; 0.1 = 10 %), or none.
     pub stretch_limit: Option<f64>,
-    /// Passes of the stretch limit per step (>= 1).
+    /// Passes of the stretch limit per step (1..=1e6).
     pub stretch_passes: u32,
     /// How close pairs of points of the cloth are found.
     pub self_collision: SelfCollision,
@@ -189,9 +195,9 @@ pub struct Camera {
     pub polar: f64,
     /// Angle around the y axis from +z towards +x, in degrees.
     pub azimuth: f64,
-    /// Smallest horizontal field of view, in degrees (0 < hfov < 180).
+    /// Smallest horizontal field of view, in degrees (0.001..=179.999).
     pub hfov: f64,
-    /// Smallest vertical field of view, in degrees (0 < vfov < 180).
+    /// Smallest vertical field of view, in degrees (0.001..=179.999).
     pub vfov: f64,
     /// Distance of the near plane, in metres (> 0).
     pub near: f64,
@@ -215,23 +221,23 @@ pub struct Light {
 pub struct Material {
     /// Which program draws the object.
     pub shader: Shader,
-    /// Surface colour c, linear, per channel.
+    /// Surface colour c, linear, per channel (>= 0).
     pub color: Vec3,
-    /// Ambient weight.
+    /// Ambient weight (>= 0).
     pub ka: f64,
-    /// Diffuse weight.
+    /// Diffuse weight (>= 0).
     pub kd: f64,
-    /// Specular weight.
+    /// Specular weight (>= 0).
     pub ks: f64,
     /// Specular exponent p (>= 0).
     pub shininess: f64,
-    /// Mirror weight of the glossy ceramic.
+    /// Mirror weight of the glossy ceramic (>= 0).
     pub km: f64,
     /// kn: scales the slope that bump takes from the height map.
     pub normal_scaling: f64,
     /// kh: height of a white texel, in model units.
     pub height_scaling: f64,
-    /// Name of the colour texture, such as `texture_1`.
+    /// Name of the colour texture, such as `texture_1`: letters, digits, `_` and `-`, as all names.
     pub texture: String,
     /// Name of the height map, such as `texture_2`.
     pub height_map: String,
@@ -269,9 +275,9 @@ pub struct Render {
     pub size: [u32; 2],
     /// Samples per pixel: 1, 4, 8 or 16.
     pub samples: u32,
-    /// Clear colour, linear, per channel.
+    /// Clear colour, linear, per channel (>= 0).
     pub background: Vec3,
-    /// Simulated time of the picture, in seconds (>= 0).
+    /// Simulated time of the picture, in seconds (0..=1e6).
     pub time: f64,
     /// How textures are looked up.
     pub filter: Filter,

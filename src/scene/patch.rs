@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::format::{Json, Member, Node, join, parse, quoted, shown};
+use super::format::{Json, Member, Node, parse};
 use super::report::{Finding, Report};
 use super::source::Span;
+use super::words::{join, quoted, shown};
 use crate::error::{Error, Kind, Result};
 
 /// Most steps of a `--set` path; a scene needs four.
@@ -110,9 +111,7 @@ fn is_bare_word(value: &str) -> bool {
 /// Puts the value of `set` into `document`; objects on the way are made where they are missing.
 pub(super) fn apply(report: &mut Report, document: &mut Node, set: Set) {
     let steps = list_steps(document, set.steps);
-    if let Err(finding) = insert(document, &steps, "", set.value) {
-        report.error(finding);
-    }
+    insert(report, document, &steps, "", set.value);
 }
 
 /// Lets one object count as a list of one, and a list of one as its object.
@@ -133,10 +132,10 @@ fn list_steps(document: &Node, mut steps: Vec<Step>) -> Vec<Step> {
     steps
 }
 
-fn insert(node: &mut Node, steps: &[Step], path: &str, value: Node) -> Result<(), Finding> {
+fn insert(report: &mut Report, node: &mut Node, steps: &[Step], path: &str, value: Node) {
     let Some((step, rest)) = steps.split_first() else {
         *node = value;
-        return Ok(());
+        return;
     };
     let kind = node.kind();
     let inner = match &mut node.json {
@@ -145,8 +144,8 @@ fn insert(node: &mut Node, steps: &[Step], path: &str, value: Node) -> Result<()
         _ => None,
     };
     match inner {
-        Some(inner) => insert(inner, rest, &join(path, &step.name), value),
-        None => Err(no_such_place(step, path, kind)),
+        Some(inner) => insert(report, inner, rest, &join(path, &step.name), value),
+        None => report.error(no_such_place(step, path, kind)),
     }
 }
 
@@ -165,4 +164,71 @@ fn no_such_place(step: &Step, path: &str, kind: &str) -> Finding {
     Finding::new("scene::no_such_place", format!("there is no `{key}`: {} is {kind}", quoted(&shown(path))))
         .at(step.span, "no such place")
         .key(key)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn node(text: &str) -> Node {
+        let mut report = Report::default();
+        let source = report.add_source("x.json", text);
+        parse(&mut report, source, 0).unwrap()
+    }
+
+    fn plain(node: &Node) -> serde_json::Value {
+        match &node.json {
+            Json::Null => serde_json::Value::Null,
+            Json::Bool(value) => (*value).into(),
+            Json::Number(value) => (*value).into(),
+            Json::Text(text) => text.as_str().into(),
+            Json::List(items) => items.iter().map(plain).collect(),
+            Json::Object(members) => members.iter().map(|m| (m.key.clone(), plain(&m.value))).collect(),
+        }
+    }
+
+    #[test]
+    fn merge_gives_every_example_of_rfc_7396() {
+        // Appendix A: original, patch, result.
+        let examples = [
+            (r#"{"a":"b"}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"a":null}"#, r#"{}"#),
+            (r#"{"a":"b","b":"c"}"#, r#"{"a":null}"#, r#"{"b":"c"}"#),
+            (r#"{"a":["b"]}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"c"}"#, r#"{"a":["b"]}"#, r#"{"a":["b"]}"#),
+            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
+            (r#"["a","b"]"#, r#"["c","d"]"#, r#"["c","d"]"#),
+            (r#"{"a":"b"}"#, r#"["c"]"#, r#"["c"]"#),
+            (r#"{"a":"foo"}"#, r#"null"#, r#"null"#),
+            (r#"{"a":"foo"}"#, r#""bar""#, r#""bar""#),
+            (r#"{"e":null}"#, r#"{"a":1}"#, r#"{"e":null,"a":1}"#),
+            (r#"[1,2]"#, r#"{"a":"b","c":null}"#, r#"{"a":"b"}"#),
+            (r#"{}"#, r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
+        ];
+        for (original, patch, result) in examples {
+            let merged = merge(node(original), node(patch));
+            assert_eq!(plain(&merged), plain(&node(result)), "{original} with {patch}");
+        }
+    }
+
+    fn after(text: &str, set: &str) -> String {
+        let mut report = Report::default();
+        let mut document = node(text);
+        let set = read_set(&mut report, set).unwrap().unwrap();
+        apply(&mut report, &mut document, set);
+        report.finish().unwrap();
+        plain(&document).to_string()
+    }
+
+    #[test]
+    fn a_set_replaces_what_is_there_and_makes_what_is_not() {
+        assert_eq!(after(r#"{"a": {"b": 1}}"#, "a.b=true"), r#"{"a":{"b":true}}"#);
+        assert_eq!(after(r#"{"a": {"b": 1}}"#, r#"a={"c": "x=y"}"#), r#"{"a":{"c":"x=y"}}"#);
+        assert_eq!(after("{}", "a.b.c=null"), r#"{"a":{"b":{"c":null}}}"#);
+        assert_eq!(after(r#"{"a": [true, [false]]}"#, "a.1.0=null"), r#"{"a":[true,[null]]}"#);
+        assert_eq!(after("{}", "a=bump"), r#"{"a":"bump"}"#);
+        assert_eq!(after("{}", "a= \"bump\" "), r#"{"a":"bump"}"#);
+    }
 }

@@ -99,7 +99,10 @@ impl Plan {
     /// The plan of `scene`.
     pub fn of(scene: &Scene) -> Self {
         let items = &mut Vec::new();
-        let [structural, shearing, bending] = springs(scene, items);
+        let structural =
+            note(items, "structural springs", spring(scene, "structural", |c| c.enable_structural));
+        let shearing = note(items, "shearing springs", spring(scene, "shearing", |c| c.enable_shearing));
+        let bending = note(items, "bending springs", spring(scene, "bending", |c| c.enable_bending));
         let any_spring = structural || shearing || bending;
         let self_collision = note(items, "self-collision", self_collision(scene));
         let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes.len()));
@@ -107,12 +110,9 @@ impl Plan {
         let stretch_limit = note(items, "stretch limit", stretch_limit(scene, any_spring));
         let drawn = drawn(scene);
         let objects = drawn.iter().map(|(name, material)| object(name, material, items)).collect();
-        let textures = images(&drawn, items, "texture", |needs, material| {
-            vec![(needs.texture, &material.texture), (needs.height_map, &material.height_map)]
-        });
-        let environments = images(&drawn, items, "cube map", |needs, material| {
-            vec![(needs.environment, &material.environment)]
-        });
+        let [textures, environments] = images(&drawn);
+        let textures = textures.names("texture", items);
+        let environments = environments.names("cube map", items);
         let items = std::mem::take(items);
         Self {
             structural,
@@ -152,19 +152,10 @@ fn cloth(scene: &Scene) -> Result<&Cloth, String> {
     scene.cloth.as_ref().ok_or_else(|| "the scene has no cloth".into())
 }
 
-fn springs(scene: &Scene, items: &mut Vec<Item>) -> [bool; 3] {
-    let kinds: [(&str, fn(&Cloth) -> bool); 3] = [
-        ("structural", |cloth| cloth.enable_structural),
-        ("shearing", |cloth| cloth.enable_shearing),
-        ("bending", |cloth| cloth.enable_bending),
-    ];
-    kinds.map(|(kind, enabled)| {
-        let decision = cloth(scene).and_then(|cloth| {
-            let reason = format!("cloth.enable_{kind} is {}", enabled(cloth));
-            if enabled(cloth) { Ok(reason) } else { Err(reason) }
-        });
-        note(items, &format!("{kind} springs"), decision)
-    })
+fn spring(scene: &Scene, kind: &str, enabled: impl Fn(&Cloth) -> bool) -> Decision {
+    let enabled = enabled(cloth(scene)?);
+    let reason = format!("cloth.enable_{kind} is {enabled}");
+    if enabled { Ok(reason) } else { Err(reason) }
 }
 
 fn self_collision(scene: &Scene) -> Decision {
@@ -227,29 +218,45 @@ fn object(name: &str, material: &Material, items: &mut Vec<Item>) -> ObjectPlan 
     ObjectPlan { name: name.into(), needs }
 }
 
-/// The names of the images of one kind that are read, each once, noted with their readers.
-fn images<'a>(
-    drawn: &[(String, &'a Material)],
-    items: &mut Vec<Item>,
-    kind: &str,
-    read: impl Fn(Needs, &'a Material) -> Vec<(bool, &'a String)>,
-) -> Vec<String> {
-    let mut readers: Vec<(&String, Vec<&str>)> = Vec::new();
-    for (object, material) in drawn {
-        for (_, image) in read(Needs::of(material.shader), material).into_iter().filter(|(needed, _)| *needed)
-        {
-            match readers.iter_mut().find(|(name, _)| *name == image) {
-                Some((_, objects)) if objects.contains(&object.as_str()) => {}
-                Some((_, objects)) => objects.push(object),
-                None => readers.push((image, vec![object])),
-            }
+/// Images of one kind with the objects that read them, in order of first use.
+#[derive(Default)]
+struct Images(Vec<(String, Vec<String>)>);
+
+impl Images {
+    fn add(&mut self, needed: bool, image: &str, object: &str) {
+        if !needed {
+            return;
+        }
+        match self.0.iter_mut().find(|(name, _)| name == image) {
+            Some((_, objects)) if objects.iter().any(|name| name == object) => {}
+            Some((_, objects)) => objects.push(object.into()),
+            None => self.0.push((image.into(), vec![object.into()])),
         }
     }
-    if readers.is_empty() {
-        note(items, &format!("{kind}s"), Err("no shader reads one".into()));
+
+    /// The names, each noted with its readers.
+    fn names(self, kind: &str, items: &mut Vec<Item>) -> Vec<String> {
+        if self.0.is_empty() {
+            note(items, &format!("{kind}s"), Err("no shader reads one".into()));
+        }
+        for (image, objects) in &self.0 {
+            note(items, &format!("{kind} {image}"), Ok(format!("read by {}", objects.join(", "))));
+        }
+        self.0.into_iter().map(|(image, _)| image).collect()
     }
-    for (image, objects) in &readers {
-        note(items, &format!("{kind} {image}"), Ok(format!("read by {}", objects.join(", "))));
-    }
-    readers.into_iter().map(|(image, _)| image.clone()).collect()
 }
+
+/// The textures with the height maps, and the cube maps.
+fn images(drawn: &[(String, &Material)]) -> [Images; 2] {
+    let [mut textures, mut environments] = [Images::default(), Images::default()];
+    for (object, material) in drawn {
+        let needs = Needs::of(material.shader);
+        textures.add(needs.texture, &material.texture, object);
+        textures.add(needs.height_map, &material.height_map, object);
+        environments.add(needs.environment, &material.environment, object);
+    }
+    [textures, environments]
+}
+
+#[cfg(test)]
+mod tests;

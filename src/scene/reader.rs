@@ -1,10 +1,11 @@
 //! Reads the keys of an object by rules, and reports keys that are missing or unknown.
 
-use super::format::{Json, Member, Node, join, quoted, shown};
+use super::format::{Json, Member, Node};
 use super::nearest::did_you_mean;
 use super::report::{Finding, Report};
 use super::rule::{At, Rule};
 use super::source::Span;
+use super::words::{join, quoted, shown};
 
 /// An object of a scene file while its keys are read.
 pub(super) struct Object<'a> {
@@ -77,10 +78,14 @@ impl Object<'_> {
         let Json::List(items) = &node.json else {
             return object(self.report, &path, node, read).into_iter().collect();
         };
-        let numbered = items.iter().enumerate();
-        numbered
-            .filter_map(|(i, item)| object(self.report, &format!("{path}.{i}"), item, &mut read))
-            .collect()
+        let mut values = Vec::new();
+        for (i, item) in items.iter().enumerate() {
+            if self.report.is_full() {
+                break;
+            }
+            values.extend(object(self.report, &format!("{path}.{i}"), item, &mut read));
+        }
+        values
     }
 
     /// Whether the key is given.
@@ -109,6 +114,9 @@ impl Object<'_> {
 
     fn report_unknown(&mut self) {
         for member in self.members.iter().filter(|m| !self.known.contains(&m.key.as_str())) {
+            if self.report.is_full() {
+                return;
+            }
             let path = self.join(&shown(&member.key));
             let listed = || format!("the keys here are {}", self.known.join(", "));
             let help = did_you_mean(&member.key, self.known.iter().copied()).unwrap_or_else(listed);

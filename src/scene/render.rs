@@ -5,6 +5,9 @@ use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Render
 use super::report::Finding;
 use super::source::{Source, Span};
 
+/// Longer pieces of a source are not shown, only named.
+const MOST_SHOWN: usize = 8192;
+
 /// How bad a finding is.
 #[derive(Clone, Copy)]
 pub(super) enum Severity {
@@ -19,49 +22,59 @@ pub(super) fn render(sources: &[Source], finding: &Finding, severity: Severity) 
         Severity::Warning => Level::WARNING,
     };
     let mut group = Group::with_title(level.primary_title(&finding.message).id(finding.code));
-    match finding.place {
-        Some(place) => group = group.elements(snippets(sources, finding, place)),
-        None => group = group.elements(sources.first().map(|source| Origin::path(&source.name))),
+    let snippets = finding.place.map_or_else(Vec::new, |place| snippets(sources, finding, place));
+    if snippets.is_empty() {
+        group = group.elements(origin(sources, finding.place));
     }
+    group = group.elements(snippets);
     if !finding.help.is_empty() {
         group = group.element(Level::HELP.message(&finding.help));
     }
     Renderer::plain().render(&[group])
 }
 
-/// One snippet when both places stand in one source, else one for each.
+/// What stands at one place, and the words beside it.
+type Mark<'a> = (AnnotationKind, Span, &'a str);
+
+/// One snippet when both places stand close together, else one for each.
 fn snippets<'a>(
     sources: &'a [Source],
     finding: &'a Finding,
     place: Span,
 ) -> Vec<Snippet<'a, Annotation<'a>>> {
-    let primary = (AnnotationKind::Primary, place, finding.label.as_str());
+    let primary: Mark = (AnnotationKind::Primary, place, &finding.label);
     let also = finding.also.as_ref().map(|(span, label)| (AnnotationKind::Context, *span, label.as_str()));
-    match also {
-        Some(also) if also.1.source == place.source => {
-            snippet(sources, &[primary, also]).into_iter().collect()
-        }
-        Some(also) => snippet(sources, &[primary]).into_iter().chain(snippet(sources, &[also])).collect(),
-        None => snippet(sources, &[primary]).into_iter().collect(),
+    let near = also.filter(|also| also.1.source == place.source);
+    match near.and_then(|also| snippet(sources, &[primary, also])) {
+        Some(both) => vec![both],
+        None => [primary].into_iter().chain(also).filter_map(|mark| snippet(sources, &[mark])).collect(),
     }
 }
 
-/// The lines that hold `marks`, which all stand in one source.
-fn snippet<'a>(
-    sources: &'a [Source],
-    marks: &[(AnnotationKind, Span, &'a str)],
-) -> Option<Snippet<'a, Annotation<'a>>> {
+/// The lines that hold `marks`, which all stand in one source; none if that is too much.
+fn snippet<'a>(sources: &'a [Source], marks: &[Mark<'a>]) -> Option<Snippet<'a, Annotation<'a>>> {
     let source = sources.get(marks.first()?.1.source)?;
     let spans = || marks.iter().map(|mark| on_one_line(source, mark.1));
     let start = spans().map(|span| span.start).min()?;
     let end = spans().map(|span| span.end).max()?;
     let (offset, text) = source.lines_around(start, end);
+    if text.len() > MOST_SHOWN {
+        return None;
+    }
     let (line, _) = source.line_column(offset);
     let annotations = marks.iter().map(|&(kind, span, label)| {
         let span = on_one_line(source, span);
         kind.span(span.start - offset..span.end - offset).label((!label.is_empty()).then_some(label))
     });
     Some(Snippet::source(text).line_start(line).path(&source.name).annotations(annotations))
+}
+
+/// The place by name alone.
+fn origin(sources: &[Source], place: Option<Span>) -> Option<Origin<'_>> {
+    let Some(place) = place else { return sources.first().map(|source| Origin::path(&source.name)) };
+    let source = sources.get(place.source)?;
+    let (line, column) = source.line_column(place.start);
+    Some(Origin::path(&source.name).line(line).char_column(column))
 }
 
 /// A span that does not run over its first line's end.

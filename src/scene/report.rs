@@ -6,7 +6,7 @@ use super::render;
 use super::source::{Source, Span};
 use crate::error::{Diagnostic, Error};
 
-/// More errors than this are counted, not listed.
+/// Reading stops after this many errors.
 const MOST_ERRORS: usize = 100;
 
 /// One thing found, before it is turned into a [`Diagnostic`].
@@ -66,7 +66,6 @@ pub(super) struct Report {
     pub(super) sources: Vec<Source>,
     errors: Vec<Diagnostic>,
     warnings: Vec<Diagnostic>,
-    unlisted: usize,
 }
 
 impl Report {
@@ -76,19 +75,29 @@ impl Report {
         self.sources.len() - 1
     }
 
-    /// The text of a span up to its first line end.
-    pub(super) fn text(&self, span: Span) -> &str {
-        self.sources.get(span.source).map_or("", |source| source.first_line(span))
+    /// The text of a span on one line.
+    pub(super) fn text(&self, span: Span) -> String {
+        let text = self.sources.get(span.source).and_then(|source| source.text.get(span.start..span.end));
+        text.unwrap_or("").split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
     /// Records an error: no scene will come of this text.
     pub(super) fn error(&mut self, finding: Finding) {
-        if self.errors.len() < MOST_ERRORS {
-            let diagnostic = self.diagnostic(&finding, render::Severity::Error);
-            self.errors.push(diagnostic);
-        } else {
-            self.unlisted += 1;
+        if self.is_full() {
+            return;
         }
+        let diagnostic = self.diagnostic(&finding, render::Severity::Error);
+        self.errors.push(diagnostic);
+        if self.is_full() {
+            let more = Finding::new("scene::more", format!("stopped after {MOST_ERRORS} errors"));
+            let diagnostic = self.diagnostic(&more, render::Severity::Error);
+            self.errors.push(diagnostic);
+        }
+    }
+
+    /// Whether there are so many errors that looking for more makes no sense.
+    pub(super) fn is_full(&self) -> bool {
+        self.errors.len() >= MOST_ERRORS
     }
 
     /// Records something doubtful that is allowed.
@@ -102,16 +111,11 @@ impl Report {
         let inside = |found: &str| {
             found.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
-        self.unlisted == 0 && !self.errors.iter().any(|e| inside(&e.key))
+        !self.errors.iter().any(|e| inside(&e.key))
     }
 
     /// The warnings if there was no error, else all errors as one.
-    pub(super) fn finish(mut self) -> Result<Vec<Diagnostic>, Error> {
-        if self.unlisted > 0 {
-            let more = Finding::new("scene::more", format!("{} more errors are not listed", self.unlisted));
-            let diagnostic = self.diagnostic(&more, render::Severity::Error);
-            self.errors.push(diagnostic);
-        }
+    pub(super) fn finish(self) -> Result<Vec<Diagnostic>, Error> {
         if self.errors.is_empty() { Ok(self.warnings) } else { Err(Error::scene(self.errors)) }
     }
 

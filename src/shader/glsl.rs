@@ -2,11 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::{
-    lanes::Lane,
-    math,
-    mesh::Attributes,
-};
+use crate::{lanes::Lane, math, mesh::Attributes};
 
 /// `vec3`
 #[derive(Clone, Copy, Debug, PartialEq)]

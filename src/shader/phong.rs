@@ -11,8 +11,9 @@ pub use super::default::position_normal as vertex;
 /// `blinn_phong` of `phong.frag`: the colour at `v_position` for the unit normal `n`.
 #[inline(always)]
 pub(super) fn blinn_phong<L: Lane>(u: &Uniforms, v_position: Vec3<L>, n: Vec3<L>) -> Vec3<L> {
-    let Uniforms { u_cam_pos, u_color, u_light_pos, u_light_intensity, u_ka, u_kd, u_ks, u_shininess, .. } =
-        *u;
+    let Uniforms {
+        u_cam_pos, u_color, u_light_pos, u_light_intensity, u_ka, u_kd, u_ks, u_shininess, ..
+    } = *u;
     let to_light = uniform(u_light_pos) - v_position;
     let r2 = dot(to_light, to_light);
     let l = normalize(to_light);

@@ -34,9 +34,7 @@ pub struct SamplerCube<'a> {
 #[inline(always)]
 pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
     let (w, h) = (sampler.texture.width(), sampler.texture.height());
-    look_up(sampler.filter, u, v, w, h, |_, i, j| {
-        sampler.texture.texels()[wrap(j, h) * w + wrap(i, w)]
-    })
+    look_up(sampler.filter, u, v, w, h, |_, i, j| sampler.texture.texels()[wrap(j, h) * w + wrap(i, w)])
 }
 
 /// `texture(samplerCube, direction).rgb`. Ties between axes: z before y before x. The zero

@@ -1,0 +1,97 @@
+//! A scene and the cloth's positions in, a picture out.
+
+mod object;
+
+use crate::{
+    camera::Camera,
+    cloth::Points,
+    cubemap::Cubemap,
+    error::Result,
+    lanes::Wide,
+    mesh::SpringKinds,
+    raster::{self, Framebuffer, Stages, Stats},
+    scene::{Plan, Scene},
+    texture::Texture,
+    texture_source::TextureSource,
+};
+use object::{Object, round};
+
+/// What is asked of a picture besides the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Spring kinds that a wireframe shows; absent: those that the cloth has.
+    pub springs: Option<SpringKinds>,
+    /// Keep object and triangle ids.
+    pub ids: bool,
+}
+
+/// A finished picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Stored colours, three bytes a pixel, top row first.
+    pub rgb: Vec<u8>,
+    /// Window depth per pixel, 1 where nothing was drawn.
+    pub depth: Vec<f32>,
+    /// `object << 24 | (triangle + 1)` per pixel, 0 for the background; empty if not asked for.
+    pub ids: Vec<u32>,
+    /// What drawing it took.
+    pub stats: Stats,
+}
+
+/// A scene with its textures, ready to be drawn at any positions of its cloth.
+#[derive(Clone, Debug)]
+pub struct Renderer {
+    scene: Scene,
+    camera: Camera,
+    textures: Vec<(String, Texture)>,
+    cubemaps: Vec<(String, Cubemap)>,
+}
+
+impl Renderer {
+    /// Reads the textures that the scene's materials need, each once, and no others.
+    ///
+    /// # Errors
+    /// A texture that is missing or cannot be decoded.
+    pub fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
+        let plan = Plan::of(scene);
+        let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
+        let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
+        Ok(Self {
+            scene: scene.clone(),
+            camera: Camera::of(scene)?,
+            textures: plan.textures.into_iter().map(texture).collect::<Result<_>>()?,
+            cubemaps: plan.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
+        })
+    }
+
+    /// A framebuffer of the scene's size and samples.
+    pub fn framebuffer(&self) -> Framebuffer {
+        let [width, height] = self.scene.render.size;
+        Framebuffer::new(width, height, self.scene.render.samples)
+    }
+
+    /// The picture with the cloth at `points`.
+    pub fn draw(&self, points: &Points, options: &Options) -> Picture {
+        let mut framebuffer = self.framebuffer();
+        let (stats, _) = self.draw_into(&mut framebuffer, points, options);
+        let [width, height] = self.scene.render.size;
+        let (rgb, depth, ids) = (framebuffer.rgb(), framebuffer.depth(), framebuffer.ids());
+        Picture { width, height, rgb, depth, ids, stats }
+    }
+
+    /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
+    pub fn draw_into(
+        &self,
+        framebuffer: &mut Framebuffer,
+        points: &Points,
+        options: &Options,
+    ) -> (Stats, Stages) {
+        let objects = Object::all(&self.scene, points, options.springs);
+        let calls: Vec<_> = objects.iter().map(|object| self.draw_call::<Wide<f32>>(object)).collect();
+        raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)
+    }
+}

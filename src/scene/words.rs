@@ -1,0 +1,33 @@
+//! Wording that the messages share.
+
+/// `text` fit for a message: characters that do not print escaped, long text cut.
+pub(super) fn shown(text: &str) -> String {
+    const MOST: usize = 60;
+    let mut cut = String::new();
+    for c in text.chars().take(MOST) {
+        match c {
+            '"' | '\'' | '\\' => cut.push(c),
+            _ => cut.extend(c.escape_debug()),
+        }
+    }
+    if text.chars().nth(MOST).is_some() { cut + "..." } else { cut }
+}
+
+/// The dotted path of the key `name` in the object at `path`.
+pub(super) fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.into() } else { format!("{path}.{name}") }
+}
+
+/// A dotted path in quotes; the empty one is the whole scene.
+pub(super) fn quoted(path: &str) -> String {
+    if path.is_empty() { "the scene".into() } else { format!("`{path}`") }
+}
+
+/// The names as a choice: `a, b or c`.
+pub(super) fn alternatives(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.collect();
+    match names.as_slice() {
+        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+        all => all.concat(),
+    }
+}
