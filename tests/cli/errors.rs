@@ -250,6 +250,8 @@ fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
     assert_eq!(plain.code, Some(3));
     let text = String::from_utf8(plain.stdout).unwrap();
     assert!(text.contains("a.json:1:2") && text.contains("b.json:1:17"), "{text}");
+    assert_eq!(scratch.run(&["check", "a.json", "no.json"]).code, Some(3));
+    assert_eq!(scratch.run(&["check", "no.json", "a.json"]).code, Some(3));
     assert_eq!(scratch.run(&["check", "no.json", "small.json"]).code, Some(6));
     assert_eq!(scratch.run(&["check", "small.json", "--set", "cloth.ks=-1"]).code, Some(3));
 }
