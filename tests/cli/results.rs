@@ -7,7 +7,7 @@ use crate::scratch::{Scratch, scene};
 #[test]
 fn help_and_version_are_results() {
     let scratch = Scratch::new();
-    for arguments in [&["--help"][..], &["-h"], &["render", "--help"], &["--version"]] {
+    for arguments in [&["--help"][..], &["-h"], &["render", "--help"], &["help", "render"], &["--version"]] {
         let run = scratch.run(arguments);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}");
         let text = String::from_utf8(run.stdout).unwrap();
