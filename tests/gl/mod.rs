@@ -9,8 +9,10 @@
               the `Context` that all other types borrow from is alive"
 )]
 
+pub(crate) mod alone;
 pub(crate) mod context;
 pub(crate) mod device;
 pub(crate) mod object;
 pub(crate) mod program;
 pub(crate) mod target;
+pub(crate) mod tally;
