@@ -7,8 +7,8 @@
 
 mod gl;
 
+use std::fmt;
 use std::path::Path;
-use std::time::Instant;
 
 use drape::cloth::Points;
 use drape::render::{Options, Renderer};
@@ -17,6 +17,8 @@ use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
 use gl::context::Context;
 use gl::device::Device;
+use gl::lines::LineTally;
+use gl::object::objects;
 use gl::tally::Tally;
 
 const SCENES: [&str; 5] = ["sphere", "plane", "pinned2", "pinned4", "selfCollision"];
@@ -61,14 +63,14 @@ struct Case {
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (s, scene) in SCENES.into_iter().enumerate() {
-        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate().skip(1) {
+        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate() {
             let mut sets = vec![format!("render.size={}", SIZES[(s + p) % 3])];
             sets.extend(CAMERAS[(s + p + p / 5) % 5].iter().map(|set| set.to_string()));
             cases.push(Case { scene, seconds: (s + p + p / 3) % 3, shader, sets });
         }
     }
     for (r, resolution) in RESOLUTIONS.into_iter().enumerate() {
-        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate().skip(1) {
+        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate() {
             let mut sets = vec![format!("sphere.resolution=[{resolution},{resolution}]")];
             sets.push(format!("render.size={}", SIZES[(r + p) % 3]));
             sets.extend(CAMERAS[(r + p) % 5].iter().chain(MATERIAL).map(|set| set.to_string()));
@@ -92,6 +94,14 @@ fn states(name: &str) -> [Points; 3] {
     })
 }
 
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = self.sets.iter().filter(|set| !MATERIAL.contains(&set.as_str()));
+        let sets: Vec<_> = shown.map(|set| set.split_once('.').map_or("", |(_, set)| set)).collect();
+        write!(f, "{} {} s {} {}", self.scene, self.seconds, self.shader.name(), sets.join(" "))
+    }
+}
+
 impl Case {
     fn scene(&self) -> Scene {
         let mut sets = self.sets.clone();
@@ -103,14 +113,33 @@ impl Case {
         let scene = self.scene();
         let renderer = Renderer::new(&scene, &TextureSource::BuiltIn).unwrap();
         let own = renderer.draw(points, &Options { ids: true, ..Options::default() });
-        let gl = device.draw(&scene, points);
-        Tally::between(&own, &gl, &scene, points)
+        let objects = objects(&scene, points);
+        let gl = device.draw(&scene, &objects);
+        Tally::between(&own, &gl, &scene, &objects)
     }
 
-    /// The smallest part of the pixels whose colour must be the same.
+    /// The smallest part of the pixels whose colour must be the same. Where a colour is a texel and
+    /// nothing else, the driver's texture coordinates show: over the plane at the start 405 of its
+    /// 374877 pixels are one level off the same formulas in f64, and 186 of ours.
     fn identical(&self) -> f64 {
-        0.999
+        if self.shader == Shader::Texture { 0.998 } else { 0.999 }
     }
+}
+
+/// A coarse cloth on its way down, so that springs are long, from three sides.
+fn compare_lines(device: &mut Device<'_>) -> LineTally {
+    let mut tally = LineTally::default();
+    for camera in &CAMERAS[..3] {
+        let mut sets: Vec<String> = camera.iter().map(|set| set.to_string()).collect();
+        let coarse = ["cloth.num_width_points=7", "cloth.num_height_points=7", "cloth.pinned=[[0,0],[6,0]]"];
+        sets.extend(coarse.map(String::from));
+        sets.extend(["render.size=[512,400]", "material.shader=wireframe"].map(String::from));
+        let scene = scene("pinned2", sets);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        (0..20).for_each(|_| simulation.advance_frame().unwrap());
+        tally.add(device, &scene, simulation.positions());
+    }
+    tally
 }
 
 #[test]
@@ -124,12 +153,15 @@ fn opengl_draws_the_same_pictures() {
     let mut device = Device::new(&context);
     let states = SCENES.map(|name| (name, states(name)));
     let mut faults = Vec::new();
+    println!("{}", Tally::HEADER);
     for case in cases() {
-        let started = Instant::now();
         let (_, states) = states.iter().find(|(name, _)| *name == case.scene).unwrap();
         let tally = case.compare(&mut device, &states[case.seconds]);
-        println!("{} {} {} {:.3?} {tally:?} {:?}", case.scene, case.seconds, case.shader.name(), started.elapsed(), case.sets);
-        faults.extend(tally.faults(case.identical()).into_iter().map(|fault| format!("{}: {fault}", case.scene)));
+        println!("{tally} {case}");
+        faults.extend(tally.faults(case.identical()).into_iter().map(|fault| format!("{case}: {fault}")));
     }
+    let lines = compare_lines(&mut device);
+    println!("{lines:?}");
+    faults.extend(lines.faults());
     assert!(faults.is_empty(), "{faults:#?}");
 }

@@ -1,14 +1,13 @@
 //! Draws scenes with the driver: programs and textures are kept from one scene to the next.
 
 use drape::camera::Camera;
-use drape::cloth::Points;
 use drape::scene::{Scene, Shader};
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 use glow::HasContext;
 
 use super::context::Context;
-use super::object::{Object, Uniform, f32_of, objects};
+use super::object::{Object, Uniform, vec3};
 use super::program::Programs;
 use super::target::Target;
 
@@ -41,16 +40,15 @@ impl<'a> Device<'a> {
         Self { gl, programs: Vec::new(), textures: Vec::new() }
     }
 
-    /// The scene with its cloth at `points`, in colours and in ids.
-    pub(crate) fn draw(&mut self, scene: &Scene, points: &Points) -> GlPicture {
+    /// Objects of a scene in colours and in ids.
+    pub(crate) fn draw(&mut self, scene: &Scene, objects: &[Object<'_>]) -> GlPicture {
         let target = Target::new(self.gl, scene.render.size);
-        let objects = objects(scene, points);
         let camera = Camera::of(scene).unwrap();
-        for object in &objects {
+        for object in objects {
             self.prepare(object);
         }
-        target.begin_colors(Vec::from_iter(scene.render.background.iter().map(|&c| f32_of(c))).try_into().unwrap());
-        for object in &objects {
+        target.begin_colors(vec3(scene.render.background));
+        for object in objects {
             self.draw_object(object, 0, scene, &camera);
         }
         let rgb = target.rgb();
@@ -182,7 +180,7 @@ impl<'a> Device<'a> {
         unsafe {
             self.gl.active_texture(glow::TEXTURE0 + unit);
             self.gl.bind_texture(target, Some(texture));
-            self.gl.uniform_1_i32(at, i32::try_from(unit).ok().as_ref().copied().unwrap());
+            self.gl.uniform_1_i32(at, unit as i32);
         }
     }
 }

@@ -12,6 +12,7 @@
 pub(crate) mod alone;
 pub(crate) mod context;
 pub(crate) mod device;
+pub(crate) mod lines;
 pub(crate) mod object;
 pub(crate) mod program;
 pub(crate) mod target;

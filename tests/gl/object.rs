@@ -46,16 +46,16 @@ impl Object<'_> {
     /// Every uniform but the textures, by its name in the GLSL files.
     pub(crate) fn uniforms(&self, scene: &Scene, camera: &Camera) -> [(&'static str, Uniform); 14] {
         let material = self.material;
-        let vec3 = |v: Vec3| Uniform::Vec3([v.x, v.y, v.z].map(f32_of));
+        let triple = |v: Vec3| Uniform::Vec3(vec3(v));
         let float = |v: f64| Uniform::Float(f32_of(v));
         [
             ("u_model", Uniform::Mat4(self.model)),
             ("u_view_projection", Uniform::Mat4(camera.view_projection)),
             ("u_cam_pos", Uniform::Vec3(camera.position)),
-            ("u_color", vec3(material.color)),
-            ("u_light_pos", vec3(scene.light.position)),
-            ("u_light_intensity", vec3(scene.light.intensity)),
-            ("u_light_color", vec3(scene.light.color)),
+            ("u_color", triple(material.color)),
+            ("u_light_pos", triple(scene.light.position)),
+            ("u_light_intensity", triple(scene.light.intensity)),
+            ("u_light_color", triple(scene.light.color)),
             ("u_ka", float(material.ka)),
             ("u_kd", float(material.kd)),
             ("u_ks", float(material.ks)),
@@ -69,8 +69,13 @@ impl Object<'_> {
 
 fn model(origin: Vec3, scale: f64) -> Columns {
     let s = f32_of(scale);
-    let [x, y, z] = [origin.x, origin.y, origin.z].map(f32_of);
+    let [x, y, z] = vec3(origin);
     [[s, 0.0, 0.0, 0.0], [0.0, s, 0.0, 0.0], [0.0, 0.0, s, 0.0], [x, y, z, 1.0]]
+}
+
+/// A triple of f64 as GLSL holds it.
+pub(crate) fn vec3(v: Vec3) -> [f32; 3] {
+    [v.x, v.y, v.z].map(f32_of)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "uniforms are f32")]
