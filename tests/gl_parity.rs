@@ -34,6 +34,9 @@ const CAMERAS: [&[&str]; 5] = [
     &["camera.polar=80", "camera.azimuth=75", "camera.distance=0.6", "camera.near=0.4", "camera.hfov=90"],
 ];
 
+/// Under the cloth, close to the ball; with the last camera inside of what the near plane cuts off.
+const BALL: &[&str] = &["camera.target=[0.5,0.2,0.5]", "camera.distance=0.5"];
+
 /// No two uniforms alike, so that none can stand in for another.
 const MATERIAL: &[&str] = &[
     "light.color=[1,0.8,0.6]",
@@ -58,8 +61,8 @@ struct Case {
     sets: Vec<String>,
 }
 
-/// Every stock scene with every shader; the rest takes turns. Then the ball in every resolution
-/// with every shader.
+/// Every stock scene with every shader, while times, sizes and cameras take turns. Then the ball of
+/// every resolution with every shader and uniforms of its own.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (s, scene) in SCENES.into_iter().enumerate() {
@@ -73,8 +76,8 @@ fn cases() -> Vec<Case> {
         for (p, &(_, shader)) in Shader::NAMES.iter().enumerate() {
             let mut sets = vec![format!("sphere.resolution=[{resolution},{resolution}]")];
             sets.push(format!("render.size={}", SIZES[(r + p) % 3]));
-            sets.extend(CAMERAS[(r + p) % 5].iter().chain(MATERIAL).map(|set| set.to_string()));
-            cases.push(Case { scene: "sphere", seconds: (p + p / 3) % 3, shader, sets });
+            sets.extend(CAMERAS[(r + p) % 5].iter().chain(BALL).chain(MATERIAL).map(|set| set.to_string()));
+            cases.push(Case { scene: "sphere", seconds: 0, shader, sets });
         }
     }
     cases
@@ -119,10 +122,11 @@ impl Case {
     }
 
     /// The smallest part of the pixels whose colour must be the same. Where a colour is a texel and
-    /// nothing else, the driver's texture coordinates show: over the plane at the start 405 of its
-    /// 374877 pixels are one level off the same formulas in f64, and 186 of ours.
+    /// nothing else, the last bits of the texture coordinates show. In the worst case here, the ball
+    /// in 333 x 217 pixels, the driver is one level off the same formulas in f64 in 178 of 51903
+    /// pixels, and we in 103; over the plane at its start, in 405 of 374877, and we in 186.
     fn identical(&self) -> f64 {
-        if self.shader == Shader::Texture { 0.998 } else { 0.999 }
+        if self.shader == Shader::Texture { 0.996 } else { 0.999 }
     }
 }
 
@@ -161,7 +165,7 @@ fn opengl_draws_the_same_pictures() {
         faults.extend(tally.faults(case.identical()).into_iter().map(|fault| format!("{case}: {fault}")));
     }
     let lines = compare_lines(&mut device);
-    println!("{lines:?}");
+    println!("{lines}");
     faults.extend(lines.faults());
     assert!(faults.is_empty(), "{faults:#?}");
 }

@@ -77,6 +77,21 @@ impl Alone {
         self.corners.iter().any(|&[x, y, z, w]| x.abs() > w || y.abs() > w || z.abs() > w)
     }
 
+    /// Where a line passes the centre of a pixel's column, or of its row if the line is steep: the
+    /// other coordinate in pixels, top row first. Nothing is snapped.
+    pub(crate) fn minor_at(&self, pixel: [usize; 2]) -> f64 {
+        let [w, h] = self.size.map(f64::from);
+        let end = |i: usize| {
+            let [x, y, _, w_clip] = self.corners[i].map(f64::from);
+            [(x / w_clip + 1.0) * w / 2.0, (1.0 - y / w_clip) * h / 2.0]
+        };
+        let (from, to) = (end(0), end(1));
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let major = usize::from(along[0].abs() < along[1].abs());
+        let part = (pixel[major] as f64 + 0.5 - from[major]) / along[major];
+        from[1 - major] + part * along[1 - major]
+    }
+
     /// How far inside of a triangle's nearest edge the centre of pixel (x, y) lies, in pixels;
     /// negative outside. By edge functions in clip space, so nothing is clipped or snapped.
     pub(crate) fn inside(&self, x: usize, y: usize) -> f64 {

@@ -105,7 +105,13 @@ impl<'a> Device<'a> {
         self.draw_elements(program, &arrays, mode, indices);
     }
 
-    fn draw_elements(&self, program: glow::Program, arrays: &[(&str, i32, &[f32])], mode: u32, indices: &[u32]) {
+    fn draw_elements(
+        &self,
+        program: glow::Program,
+        arrays: &[(&str, i32, &[f32])],
+        mode: u32,
+        indices: &[u32],
+    ) {
         let gl = self.gl;
         unsafe {
             let vertex_array = gl.create_vertex_array().unwrap();
@@ -118,7 +124,8 @@ impl<'a> Device<'a> {
                 gl.enable_vertex_attrib_array(location);
                 gl.vertex_attrib_pointer_f32(location, components, glow::FLOAT, false, 0, 0);
             }
-            buffers.push(self.buffer(glow::ELEMENT_ARRAY_BUFFER, indices.iter().flat_map(|i| i.to_ne_bytes())));
+            buffers
+                .push(self.buffer(glow::ELEMENT_ARRAY_BUFFER, indices.iter().flat_map(|i| i.to_ne_bytes())));
             gl.draw_elements(mode, i32::try_from(indices.len()).unwrap(), glow::UNSIGNED_INT, 0);
             gl.delete_vertex_array(vertex_array);
             buffers.into_iter().for_each(|buffer| gl.delete_buffer(buffer));

@@ -83,7 +83,8 @@ impl<'a> Target<'a> {
             self.gl.read_pixels(0, 0, self.size[0], self.size[1], format, kind, data);
         }
         let rows = bytes.chunks_exact(width * 4).rev();
-        rows.flat_map(|row| row.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2], pixel[3]])).collect()
+        rows.flat_map(|row| row.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2], pixel[3]]))
+            .collect()
     }
 }
 
