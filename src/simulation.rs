@@ -74,6 +74,22 @@ impl Simulation {
         })
     }
 
+    /// Puts the points at `x`, coming from `last` one step ago, in metres: another start, or a
+    /// state kept from an earlier run. The springs keep their rest lengths, the clock its time.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] when there is not one position for each point of the cloth.
+    pub fn set_state(&mut self, x: Points, last: Points) -> Result<()> {
+        let points = self.positions().len();
+        if [&x, &last].iter().any(|state| [&state.x, &state.y, &state.z].iter().any(|c| c.len() != points)) {
+            return Err(Error::new(Kind::Scene, format!("the state is not one of {points} points")));
+        }
+        if let Some(cloth) = &mut self.cloth {
+            (cloth.x, cloth.last) = (x, last);
+        }
+        Ok(())
+    }
+
     /// Makes one step.
     pub fn step(&mut self) {
         if let Some(cloth) = &mut self.cloth {
@@ -237,5 +253,21 @@ impl Stopwatch {
         let nanoseconds = now.duration_since(*since).as_nanos();
         *phase(timings) += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
         *since = now;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn infinite_and_undefined_components_are_found() {
+        for bad in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let mut points = Points::zeros(5).unwrap();
+            assert_eq!(first_non_finite(&points), None, "all are zero");
+            points.z[3] = bad;
+            points.x[4] = bad;
+            assert_eq!(first_non_finite(&points), Some(3), "{bad}");
+        }
     }
 }

@@ -67,38 +67,54 @@ struct Bench {
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let frames = args.frames.unwrap_or_else(|| frame_at(args.time, &scene));
-    let only_positions = outputs::takes_stdout(&[&args.positions]);
-    outputs::check_stdout(only_positions, args.hash || args.bench || session.ui.json)?;
-    outputs::check(
-        &args.scene.inputs(),
-        args.positions.iter().map(|path| (path.as_path(), Content::Binary)),
-    )?;
+    args.check_outputs(session)?;
     let mut simulation = start(&scene, frames, args.leniency.allow_unstable, session)?;
     if args.bench {
         simulation.record_timings();
     }
     let mut hashes = Vec::new();
-    let elapsed = advance(&mut simulation, frames, session, |now| {
-        if args.hash && session.ui.json {
-            hashes.push(hex(now.state_hash()));
-        } else if args.hash {
-            atomic::write_stdout(format!("{} {}\n", now.frame(), hex(now.state_hash())).as_bytes())?;
-        }
-        Ok(())
-    })?;
-    if let Some(path) = &args.positions {
-        let points = simulation.positions();
-        atomic::write(path, &raw::points(&points.x, &points.y, &points.z))?;
-    }
+    let elapsed = advance(&mut simulation, frames, session, |now| args.take_hash(now, session, &mut hashes))?;
+    args.write_positions(&simulation)?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
     if args.bench {
-        return session.print_json(&bench(&simulation, springs, elapsed));
+        session.print_json(&bench(&simulation, springs, elapsed))
+    } else if args.fills_stdout() || (args.hash && !session.ui.json) {
+        Ok(())
+    } else {
+        let summary = summary(&simulation, springs, hashes);
+        session.print(&summary, &summary.text())
     }
-    if only_positions || (args.hash && !session.ui.json) {
-        return Ok(());
+}
+
+impl Args {
+    fn check_outputs(&self, session: &Session) -> Result<()> {
+        outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
+        let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));
+        outputs::check(&self.scene.inputs(), positions)
     }
-    let summary = summary(&simulation, springs, hashes);
-    session.print(&summary, &summary.text())
+
+    fn fills_stdout(&self) -> bool {
+        outputs::takes_stdout(&[&self.positions])
+    }
+
+    /// Prints the hash of a frame at once, or keeps it where all are printed as one object.
+    fn take_hash(&self, now: &Simulation, session: &Session, hashes: &mut Vec<String>) -> Result<()> {
+        if !self.hash {
+            return Ok(());
+        }
+        let hash = hex(now.state_hash());
+        if session.ui.json {
+            hashes.push(hash);
+            return Ok(());
+        }
+        atomic::write_stdout(format!("{} {hash}\n", now.frame()).as_bytes())
+    }
+
+    fn write_positions(&self, simulation: &Simulation) -> Result<()> {
+        let points = simulation.positions();
+        let bytes = || raw::points(&points.x, &points.y, &points.z);
+        self.positions.as_ref().map_or(Ok(()), |path| atomic::write(path, &bytes()))
+    }
 }
 
 fn summary(simulation: &Simulation, springs: usize, hashes: Vec<String>) -> Summary {

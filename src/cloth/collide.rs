@@ -26,21 +26,23 @@ impl Objects {
 
     /// Resolves the contacts of every unpinned point in index order: the planes, then the spheres.
     pub(crate) fn collide(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
-        for p in pins.free.iter().cloned().flatten() {
-            let (mut point, last) = (x.get(p), last.get(p));
-            for plane in &self.planes {
-                if let Some(hit) = hit_plane(point, last, plane) {
-                    point = hit;
-                    counters.object_moves += 1;
+        for run in &pins.free {
+            for p in run.clone() {
+                let (mut point, last) = (x.get(p), last.get(p));
+                for plane in &self.planes {
+                    if let Some(hit) = hit_plane(point, last, plane) {
+                        point = hit;
+                        counters.object_moves += 1;
+                    }
                 }
-            }
-            for sphere in &self.spheres {
-                if let Some(hit) = hit_sphere(point, last, sphere) {
-                    point = hit;
-                    counters.object_moves += 1;
+                for sphere in &self.spheres {
+                    if let Some(hit) = hit_sphere(point, last, sphere) {
+                        point = hit;
+                        counters.object_moves += 1;
+                    }
                 }
+                x.set(p, point);
             }
-            x.set(p, point);
         }
         counters.object_tests += pins.free_points() * (self.planes.len() + self.spheres.len()) as u64;
     }

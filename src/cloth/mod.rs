@@ -22,8 +22,8 @@
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
 //! # Why the sign of a zero never shows
-//! `x` and `last` are never -0.0: they start at +0.0 or above and below zero, and every update is
-//! `x + something` or `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
+//! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
+//! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 use crate::error::{Error, Kind, Result};
@@ -125,7 +125,7 @@ pub struct Counters {
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.
     pub boxes_searched: u64,
-    /// Pairs of points whose distance self-collision looked at.
+    /// Pairs of points that shared a box, once a step.
     pub pairs_tested: u64,
     /// Points that self-collision moved.
     pub self_collision_moves: u64,
@@ -133,7 +133,7 @@ pub struct Counters {
     pub object_tests: u64,
     /// Times that an object moved a point.
     pub object_moves: u64,
-    /// Springs that the stretch limit looked at.
+    /// Springs that the stretch limit looked at, once a pass.
     pub springs_checked: u64,
     /// Springs that the stretch limit shortened.
     pub springs_limited: u64,

@@ -107,11 +107,11 @@ impl Checks<'_> {
             return;
         }
         let message = format!(
-            "2 x thickness is {} m, more than the {spacing:.4e} m between neighbouring points",
+            "2 x thickness is {} m, more than the {spacing} m between neighbouring points",
             2.0 * cloth.thickness
         );
         let finding = Finding::new("scene::thickness", message).key("cloth.thickness").help(format!(
-            "self-collision pushes the cloth apart at rest unless this is at most {:.4e}",
+            "self-collision pushes the cloth apart at rest unless this is at most {}",
             spacing / 2.0
         ));
         if let Some(place) = self.span("cloth.thickness") {
