@@ -5,6 +5,8 @@
 //! and the same colour, up to one level of 255 in few pixels. Textures are given as floats, since
 //! the driver filters 8-bit textures with 8-bit weights.
 
+#![expect(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
+
 mod gl;
 
 use std::fmt;

@@ -78,7 +78,6 @@ pub(crate) fn vec3(v: Vec3) -> [f32; 3] {
     [v.x, v.y, v.z].map(f32_of)
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "uniforms are f32")]
 pub(crate) fn f32_of(value: f64) -> f32 {
     value as f32
 }
