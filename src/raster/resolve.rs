@@ -40,6 +40,7 @@ pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) ->
     for (color, sum) in tile.color.iter_mut().zip(&sums) {
         *color = store(*sum);
     }
+    tile.ids.clear();
     if scene.ids {
         tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
     }
@@ -179,7 +180,8 @@ fn id(handle: Handle, scene: &TileScene<'_>) -> u32 {
         .or_else(|| chunk.lines.get(index).map(|line| line.source));
     #[expect(clippy::cast_possible_truncation, reason = "objects are few")]
     let object = chunk.call as u32 + 1;
-    object << 24 | (source.unwrap_or(0) + 1)
+    // A cloth of more than 2.7 million points has more springs than 24 bits count.
+    object << 24 | (source.unwrap_or(0) + 1).min(0xFF_FFFF)
 }
 
 /// A colour channel in 0..=1; NaN is 0.

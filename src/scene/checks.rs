@@ -13,6 +13,10 @@ pub const MAX_POINTS: usize = 1 << 22;
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
 
+/// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
+/// primitives than the rasteriser can number (see `raster::bin`).
+pub const MAX_RESOLUTION: u32 = 1000;
+
 /// A scene that was read from `document`, under check.
 pub(super) struct Checks<'a> {
     pub(super) report: &'a mut Report,

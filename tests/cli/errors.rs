@@ -255,3 +255,22 @@ fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
     assert_eq!(scratch.run(&["check", "no.json", "small.json"]).code, Some(6));
     assert_eq!(scratch.run(&["check", "small.json", "--set", "cloth.ks=-1"]).code, Some(3));
 }
+
+#[test]
+fn a_picture_does_not_replace_a_texture_that_it_may_read() {
+    let scratch = Scratch::new();
+    fs::create_dir_all(scratch.path("set/cube")).expect("folders");
+    for texture in ["set/texture_1.png", "set/cube/posx.png"] {
+        fs::write(scratch.path(texture), "not looked into").expect("a file");
+        fails(&scratch, &["render", "small.json", texture, "--textures", "set"], 2, "usage");
+        assert_eq!(scratch.read(texture), b"not looked into");
+    }
+}
+
+#[test]
+fn a_camera_in_its_target_is_3() {
+    let scratch = Scratch::new();
+    let far = ["--set", "camera.target=[0,0,1e15]", "--set", "camera.distance=0.01"];
+    let (error, _) = fails(&scratch, &[&["render", "small.json", "out.png"], &far[..]].concat(), 3, "scene");
+    assert!(error["help"].as_str().is_some_and(|help| help.contains("camera.distance")), "{error}");
+}

@@ -160,6 +160,17 @@ fn export_is_the_simulated_mesh() {
 }
 
 #[test]
+fn export_tells_programs_what_it_wrote() {
+    let scratch = Scratch::new();
+    let summary = scratch.json(&["export", "small.json", "out.obj", "--frame", "3", "--json"]);
+    assert_eq!(summary["mesh"], "out.obj");
+    assert_eq!(
+        (&summary["frame"], &summary["points"], &summary["triangles"]),
+        (&3.into(), &25.into(), &32.into())
+    );
+}
+
+#[test]
 fn info_counts_what_a_simulation_then_uses() {
     let scratch = Scratch::new();
     for name in ["pinned2", "pinned4", "sphere", "plane", "selfCollision"] {
