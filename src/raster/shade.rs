@@ -2,7 +2,8 @@
 //!
 //! Barycentric coordinates l are computed in f64 from the unsnapped window positions, rounded
 //! once, and weighted with 1/w: a = Σ lᵢ·rᵢ·aᵢ / Σ lᵢ·rᵢ. Inside the triangle all weights are
-//! positive, so nothing cancels: the error is below 6 ulp of max |aᵢ| (tested against f64).
+//! positive, so nothing cancels: the roundings add up to at most 11·2⁻²⁴·max |aᵢ|, and stay below
+//! 6·2⁻²⁴·max |aᵢ| in tests against f64 (4.6 is the largest seen).
 
 use std::{marker::PhantomData, ops::Range};
 
@@ -17,6 +18,10 @@ use crate::{
     lanes::{Lane, WIDTH},
     shader::glsl::{FragmentProgram, Vec3},
 };
+
+/// Pixels of a row of a tile.
+#[expect(clippy::cast_possible_truncation, reason = "64")]
+const ROW: u16 = TILE as u16;
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
@@ -126,8 +131,8 @@ fn varyings<L: Lane, const N: usize>(
         return result;
     }
     let [x0, y0] = input.origin.map(<L::Double as Lane>::splat);
-    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE as u16));
-    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE as u16));
+    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % ROW));
+    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / ROW));
     let mut previous = 0;
     for (i, &primitive) in primitives.iter().enumerate() {
         if primitive == previous || primitives[..i].contains(&primitive) {
