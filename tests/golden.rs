@@ -3,15 +3,15 @@
 //! A golden is replaced by `DRAPE_BLESS="reason" cargo test --release --test golden`, which fails
 //! after it has written; the next run compares. What differs is shown in `target/golden/`.
 
-mod support;
+mod goldens;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use drape::output::png::{self, Effort, Pixels};
+use goldens::files::{Goldens, check_size, save};
+use goldens::program::{Case, draw, repository};
 use rayon::prelude::*;
-use support::golden::{Goldens, check_size, save};
-use support::program::{Case, draw, repository};
 
 /// Pictures kept as files: name, scene, arguments of `render`. At most 256 x 256 and 20 KiB.
 const PICTURES: &[Case] = &[

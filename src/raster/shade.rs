@@ -2,7 +2,8 @@
 //!
 //! Barycentric coordinates l are computed in f64 from the unsnapped window positions, rounded
 //! once, and weighted with 1/w: a = Σ lᵢ·rᵢ·aᵢ / Σ lᵢ·rᵢ. Inside the triangle all weights are
-//! positive, so nothing cancels: the error is below 6 ulp of max |aᵢ| (tested against f64).
+//! positive, so nothing cancels: the roundings add up to at most 11·2⁻²⁴·max |aᵢ|, and stay below
+//! 6·2⁻²⁴·max |aᵢ| in tests against f64 (4.6 is the largest seen).
 
 use std::{marker::PhantomData, ops::Range};
 
