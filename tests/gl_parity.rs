@@ -39,6 +39,9 @@ const CAMERAS: [&[&str]; 5] = [
 /// Under the cloth, close to the ball; with the last camera inside of what the near plane cuts off.
 const BALL: &[&str] = &["camera.target=[0.5,0.2,0.5]", "camera.distance=0.5"];
 
+/// Twice the same plane ties in every pixel, and the first must win.
+const PLANE: &str = r#"{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.5}"#;
+
 /// No two uniforms alike, so that none can stand in for another.
 const MATERIAL: &[&str] = &[
     "light.color=[1,0.8,0.6]",
@@ -64,7 +67,8 @@ struct Case {
 }
 
 /// Every stock scene with every shader, while times, sizes and cameras take turns. Then the ball of
-/// every resolution with every shader and uniforms of its own.
+/// every resolution with every shader and uniforms of its own; and a
+/// scene full of ties.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (s, scene) in SCENES.into_iter().enumerate() {
@@ -82,6 +86,8 @@ fn cases() -> Vec<Case> {
             cases.push(Case { scene: "sphere", seconds: 0, shader, sets });
         }
     }
+    let sets = vec![format!("plane=[{PLANE},{PLANE}]")];
+    cases.push(Case { scene: "plane", seconds: 2, shader: Shader::Normal, sets });
     cases
 }
 
@@ -102,7 +108,9 @@ fn states(name: &str) -> [Points; 3] {
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shown = self.sets.iter().filter(|set| !MATERIAL.contains(&set.as_str()));
-        let sets: Vec<_> = shown.map(|set| set.split_once('.').map_or("", |(_, set)| set)).collect();
+        let groups = ["render.", "camera.", "sphere."];
+        let short = |set: &String| groups.iter().fold(set.clone(), |set, group| set.replace(group, ""));
+        let sets: Vec<_> = shown.map(short).collect();
         write!(f, "{} {} s {} {}", self.scene, self.seconds, self.shader.name(), sets.join(" "))
     }
 }

@@ -60,7 +60,10 @@ impl LineTally {
 
     /// What breaks the limits.
     pub(crate) fn faults(&self) -> Vec<String> {
-        let mut faults = self.wrong.clone();
+        let mut faults: Vec<_> = self.wrong.iter().take(3).cloned().collect();
+        if self.wrong.len() > faults.len() {
+            faults.push(format!("{} such pixels", self.wrong.len()));
+        }
         if self.lines == 0 || self.deviating * 1000 > self.pixels {
             faults
                 .push(format!("{} of {} pixels of lines are on one side only", self.deviating, self.pixels));

@@ -24,8 +24,9 @@ const SNAPPING: f64 = 1.0 / 256.0;
 /// driver lose sight of it. In the one such case here ours are those of the formulas in f64.
 const NARROW: f64 = 1.0 / 16.0;
 
-/// After so many wrong pixels no more are looked into: each takes a picture of its own.
-const ENOUGH: usize = 20;
+/// After so many pixels no more are looked into, for each takes a picture of its own: the rest of
+/// those that differ is wrong.
+const ENOUGH: usize = 100;
 
 /// Counts over one picture.
 #[derive(Clone, Debug, Default)]
@@ -40,6 +41,8 @@ pub(crate) struct Tally {
     pub(crate) near_ties: usize,
     /// Pixels whose centre lies on the edge of a triangle that was cut, to the grid's resolution.
     pub(crate) cut_edges: usize,
+    /// Pixels in which a line is seen on one side, and something as deep on the other.
+    pub(crate) line_ties: usize,
     /// Pixels in which a line is on one side only, or behind on one side only.
     pub(crate) lines: usize,
     /// Pixels for which nothing excuses the difference.
@@ -120,10 +123,10 @@ impl Tally {
         let seen = [sides.own.ids[i], sides.gl.ids[i]];
         if seen.iter().any(|&id| sides.is_line(id)) {
             let tie = !seen.contains(&0) && sides.depth_difference(i) <= DEPTH_ERROR;
-            *(if tie { &mut self.near_ties } else { &mut self.lines }) += 1;
+            *(if tie { &mut self.line_ties } else { &mut self.lines }) += 1;
             return;
         }
-        if self.wrong >= ENOUGH {
+        if self.excused() + self.wrong >= ENOUGH {
             self.wrong += 1;
             return;
         }
@@ -146,6 +149,11 @@ impl Tally {
         }
     }
 
+    /// Pixels that were looked into and found to be undecided.
+    fn excused(&self) -> usize {
+        self.ties + self.near_ties + self.cut_edges
+    }
+
     fn add_wrong(&mut self, sides: &Sides<'_>, i: usize, why: &str) {
         self.wrong += 1;
         if self.examples.len() < 3 {
@@ -164,10 +172,9 @@ impl Tally {
             }
         };
         let part = |n: usize, parts: f64| (n as f64 * parts).ceil();
-        let excused = self.ties + self.near_ties + self.cut_edges;
-        let lines = self.lines > 0;
         limit("wrong pixels", self.wrong as f64, 0.0);
-        limit("pixels on ties", excused as f64, part(self.covered, if lines { 0.2 } else { 0.0003 }));
+        limit("pixels on ties", self.excused() as f64, part(self.covered, 0.0003));
+        limit("pixels on ties of lines", self.line_ties as f64, part(self.covered, 0.2));
         limit("pixels where lines deviate", self.lines as f64, part(self.covered, 0.0015));
         limit("pixels more than one level apart", self.levels[2] as f64, 0.0);
         limit("pixels one level apart", self.levels[1] as f64, part(self.same, 1.0 - identical));
@@ -180,14 +187,29 @@ impl Tally {
 impl Tally {
     /// What stands in the columns of a tally that is displayed.
     pub(crate) const HEADER: &'static str =
-        "covered    same   ties  near    cut  lines wrong | levels 0        1     2 jumps | depth | case";
+        "covered    same   ties  near  cut l.ties l.off wrong | levels:0        1    >1 jumps | depth | case";
 }
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { covered, same, ties, near_ties, cut_edges, lines, wrong, jumps, depth_error, .. } = self;
+        let Self {
+            covered,
+            same,
+            ties,
+            near_ties,
+            cut_edges,
+            line_ties,
+            lines,
+            wrong,
+            jumps,
+            depth_error,
+            ..
+        } = self;
         let [zero, one, more] = self.levels;
-        write!(f, "{covered:7} {same:7} {ties:6} {near_ties:5} {cut_edges:6} {lines:6} {wrong:5} | ")?;
+        write!(
+            f,
+            "{covered:7} {same:7} {ties:6} {near_ties:5} {cut_edges:4} {line_ties:6} {lines:5} {wrong:5} | "
+        )?;
         write!(f, "{zero:8} {one:8} {more:5} {jumps:5} | {depth_error:5.2} |")
     }
 }
