@@ -1,7 +1,5 @@
 //! Every shader program gives the value of its formula, and the values known without one.
 
-#![expect(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
-
 mod support;
 
 use drape::shader::{

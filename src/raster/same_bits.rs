@@ -9,7 +9,7 @@ use crate::{
     math::splitmix64,
     mesh::Attributes,
     scene::Filter,
-    shader::{Uniforms, bump, glsl::Exponent, phong, sampler::Sampler2d},
+    shader::{Uniforms, bump, glsl::Exponent, phong, sampler::Sampler2d, wireframe},
     texture::Texture,
 };
 
@@ -72,9 +72,13 @@ fn picture(samples: u32) -> (Vec<u8>, Vec<u32>, Stats) {
             bump::vertex(u),
             bump::fragment::<Wide<f32>>(u, heights),
         ),
-        DrawCall::new(Primitives::Lines(&lines), 180, vertex, phong::vertex(u), |_: &[Wide<f32>; 6]| {
-            crate::shader::glsl::uniform([1.0; 3])
-        }),
+        DrawCall::new(
+            Primitives::Lines(&lines),
+            180,
+            vertex,
+            wireframe::vertex(u),
+            wireframe::fragment::<Wide<f32>>(u),
+        ),
     ];
     let mut framebuffer = Framebuffer::new(200, 100, samples);
     let (stats, _) = draw(&mut framebuffer, [0.2; 3], &calls, false);
