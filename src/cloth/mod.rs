@@ -34,6 +34,9 @@ pub(crate) mod collide;
 pub mod energy;
 pub(crate) mod forces;
 pub mod grid;
+pub(crate) mod guard;
+pub mod ledger;
+pub mod measure;
 pub(crate) mod self_collision;
 pub mod springs;
 pub mod stability;
@@ -59,6 +62,13 @@ impl Points {
     /// [`Kind::Scene`] when they do not fit in memory.
     pub fn zeros(len: usize) -> Result<Self> {
         Ok(Self { x: filled(len, 0.0)?, y: filled(len, 0.0)?, z: filled(len, 0.0)? })
+    }
+
+    /// Takes the vectors of `other`, which has as many, without new memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
     }
 
     /// How many points there are.

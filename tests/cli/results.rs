@@ -283,3 +283,28 @@ fn messages_are_coloured_only_when_asked_and_silent_when_asked() {
     assert!(remarks(&["-v"]).starts_with("simulated 1 frames in "));
     assert_eq!((remarks(&[]).as_str(), remarks(&["-q"]).as_str()), ("", ""));
 }
+
+#[test]
+fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
+    let scratch = Scratch::new();
+    let arguments = ["simulate", "small.json", "--frames", "40", "--csv", "out.csv", "--json"];
+    let summary = scratch.json(&arguments);
+    let text = String::from_utf8(scratch.read("out.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    assert_eq!((names.len(), rows.len()), (15, 41), "frames 0 to 40");
+    let column = |name: &str| names.iter().position(|&n| n == name).unwrap();
+    for (frame, pair) in rows.windows(2).enumerate() {
+        let put_in: f64 = pair[1][column("by_gravity")..=column("by_stretch_limit")].iter().sum();
+        let change = pair[1][column("total")] - pair[0][column("total")];
+        assert!((put_in - change).abs() < 1e-8, "frame {}: {put_in} J, not {change} J", frame + 1);
+        assert!(pair[1][column("largest_speed")] > 0.0 && pair[1][column("smallest_distance")] > 0.1);
+        assert!((pair[1][column("time")] - (frame + 1) as f64 / 90.0).abs() < 1e-12);
+    }
+    assert!(rows.iter().any(|row| row[column("by_stretch_limit")] != 0.0), "the limit takes part");
+    let damping: f64 = rows.iter().map(|row| row[column("by_damping")]).sum();
+    assert!((summary["ledger"]["damping"].as_f64().unwrap() - damping).abs() < 1e-8 * damping.abs());
+    assert_eq!(summary["energy"]["kinetic"].as_f64().unwrap(), rows[40][column("kinetic")]);
+}
