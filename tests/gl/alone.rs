@@ -5,12 +5,12 @@ use drape::lanes::Wide;
 use drape::mesh::Attributes;
 use drape::raster::{self, DrawCall, Framebuffer, Primitives};
 use drape::scene::Scene;
-use drape::shader::glsl::{self, Exponent};
+use drape::shader::glsl;
 use drape::shader::sampler::Sampler2d;
-use drape::shader::{Uniforms, default, displacement};
+use drape::shader::{default, displacement};
 use drape::texture::Texture;
 
-use super::object::{Object, f32_of};
+use super::object::Object;
 
 /// The corners of a triangle or the ends of a line in clip space.
 pub(crate) struct Alone {
@@ -32,7 +32,7 @@ impl Alone {
             None => &object.mesh.triangles[number],
         };
         let vertices = indices.iter().map(|&i| object.mesh.vertex(i as usize));
-        let uniforms = uniforms(object, camera);
+        let uniforms = object.uniforms(scene, camera);
         let corners = if let Some(texture) = height_map {
             let sampler = Sampler2d { texture, filter: scene.render.filter };
             let program = displacement::vertex(&uniforms, sampler);
@@ -80,16 +80,27 @@ impl Alone {
     /// Where a line passes the centre of a pixel's column, or of its row if the line is steep: the
     /// other coordinate in pixels, top row first. Nothing is snapped.
     pub(crate) fn minor_at(&self, pixel: [usize; 2]) -> f64 {
-        let [w, h] = self.size.map(f64::from);
-        let end = |i: usize| {
-            let [x, y, _, w_clip] = self.corners[i].map(f64::from);
-            [(x / w_clip + 1.0) * w / 2.0, (1.0 - y / w_clip) * h / 2.0]
-        };
-        let (from, to) = (end(0), end(1));
+        let (from, to) = (self.window(0), self.window(1));
         let along = [to[0] - from[0], to[1] - from[1]];
         let major = usize::from(along[0].abs() < along[1].abs());
         let part = (pixel[major] as f64 + 0.5 - from[major]) / along[major];
         from[1 - major] + part * along[1 - major]
+    }
+
+    /// A corner in the window, in pixels, top row first.
+    fn window(&self, corner: usize) -> [f64; 2] {
+        let [w, h] = self.size.map(f64::from);
+        let [x, y, _, w_clip] = self.corners[corner].map(f64::from);
+        [(x / w_clip + 1.0) * w / 2.0, (1.0 - y / w_clip) * h / 2.0]
+    }
+
+    /// How thin a triangle is that was not cut: its height over its longest side, in pixels.
+    pub(crate) fn thickness(&self) -> f64 {
+        let corners = [0, 1, 2].map(|i| self.window(i));
+        let side = |i: usize| [0, 1].map(|k| corners[(i + 1) % 3][k] - corners[i][k]);
+        let longest = [0, 1, 2].map(|i| side(i)[0] * side(i)[0] + side(i)[1] * side(i)[1]);
+        let area = side(0)[0] * side(1)[1] - side(0)[1] * side(1)[0];
+        area.abs() / longest.into_iter().fold(0.0, f64::max).sqrt()
     }
 
     /// How far inside of a triangle's nearest edge the centre of pixel (x, y) lies, in pixels;
@@ -114,24 +125,4 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// What the vertex stage reads.
-fn uniforms(object: &Object<'_>, camera: &Camera) -> Uniforms {
-    Uniforms {
-        u_model: object.model,
-        u_view_projection: camera.view_projection,
-        u_cam_pos: camera.position,
-        u_color: [0.0; 3],
-        u_light_pos: [0.0; 3],
-        u_light_intensity: [0.0; 3],
-        u_light_color: [0.0; 3],
-        u_ka: 0.0,
-        u_kd: 0.0,
-        u_ks: 0.0,
-        u_shininess: Exponent::Whole(1),
-        u_km: 0.0,
-        u_normal_scaling: 0.0,
-        u_height_scaling: f32_of(object.material.height_scaling),
-    }
 }

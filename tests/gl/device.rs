@@ -1,13 +1,15 @@
 //! Draws scenes with the driver: programs and textures are kept from one scene to the next.
 
-use drape::camera::Camera;
+use drape::camera::{Camera, Columns};
 use drape::scene::{Scene, Shader};
+use drape::shader::Uniforms;
+use drape::shader::glsl::Exponent;
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 use glow::HasContext;
 
 use super::context::Context;
-use super::object::{Object, Uniform, vec3};
+use super::object::{Object, vec3};
 use super::program::Programs;
 use super::target::Target;
 
@@ -151,7 +153,7 @@ impl<'a> Device<'a> {
         camera: &Camera,
     ) {
         let gl = self.gl;
-        let known = object.uniforms(scene, camera);
+        let values = object.uniforms(scene, camera);
         let count = unsafe { gl.get_program_parameter_i32(program, glow::ACTIVE_UNIFORMS) };
         for index in 0..u32::try_from(count).unwrap() {
             let name = unsafe { gl.get_active_uniform(program, index) }.unwrap().name;
@@ -167,18 +169,34 @@ impl<'a> Device<'a> {
                     let [width, height] = self.texture(&material.height_map).unwrap().1;
                     unsafe { gl.uniform_2_f32(at, width, height) };
                 }
-                _ => {
-                    let value = known.iter().find(|(known, _)| *known == name);
-                    let (_, value) = value.unwrap_or_else(|| panic!("what is the uniform {name}?"));
-                    match value {
-                        Uniform::Float(v) => unsafe { gl.uniform_1_f32(at, *v) },
-                        Uniform::Vec3(v) => unsafe { gl.uniform_3_f32_slice(at, v) },
-                        Uniform::Mat4(m) => unsafe {
-                            gl.uniform_matrix_4_f32_slice(at, false, m.as_flattened());
-                        },
-                    }
-                }
+                _ => self.set_value(at, &name, &values),
             }
+        }
+    }
+
+    fn set_value(&self, at: Option<&glow::UniformLocation>, name: &str, u: &Uniforms) {
+        let mat4 = |m: &Columns| unsafe { self.gl.uniform_matrix_4_f32_slice(at, false, m.as_flattened()) };
+        let vec3 = |v: &[f32; 3]| unsafe { self.gl.uniform_3_f32_slice(at, v) };
+        let float = |x: f32| unsafe { self.gl.uniform_1_f32(at, x) };
+        match name {
+            "u_model" => mat4(&u.u_model),
+            "u_view_projection" => mat4(&u.u_view_projection),
+            "u_cam_pos" => vec3(&u.u_cam_pos),
+            "u_color" => vec3(&u.u_color),
+            "u_light_pos" => vec3(&u.u_light_pos),
+            "u_light_intensity" => vec3(&u.u_light_intensity),
+            "u_light_color" => vec3(&u.u_light_color),
+            "u_ka" => float(u.u_ka),
+            "u_kd" => float(u.u_kd),
+            "u_ks" => float(u.u_ks),
+            "u_shininess" => float(match u.u_shininess {
+                Exponent::Whole(whole) => whole as f32,
+                Exponent::Real(real) => real,
+            }),
+            "u_km" => float(u.u_km),
+            "u_normal_scaling" => float(u.u_normal_scaling),
+            "u_height_scaling" => float(u.u_height_scaling),
+            _ => panic!("what is the uniform {name}?"),
         }
     }
 

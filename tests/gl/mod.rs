@@ -16,4 +16,5 @@ pub(crate) mod lines;
 pub(crate) mod object;
 pub(crate) mod program;
 pub(crate) mod target;
+pub(crate) mod seams;
 pub(crate) mod tally;

@@ -5,6 +5,10 @@ use drape::camera::{Camera, Columns};
 use drape::cloth::Points;
 use drape::mesh::{Mesh, SpringKinds, spring_lines};
 use drape::scene::{Material, Needs, Scene, Shader, Vec3};
+use drape::shader::Uniforms;
+use drape::shader::glsl::Exponent;
+use drape::texture::Texture;
+use drape::texture_source::TextureSource;
 
 /// One draw call.
 pub(crate) struct Object<'a> {
@@ -12,14 +16,6 @@ pub(crate) struct Object<'a> {
     pub(crate) lines: Option<Vec<[u32; 2]>>,
     pub(crate) model: Columns,
     pub(crate) material: &'a Material,
-}
-
-/// The value of a uniform.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Uniform {
-    Float(f32),
-    Vec3([f32; 3]),
-    Mat4(Columns),
 }
 
 /// The cloth, the planes, the spheres.
@@ -43,41 +39,41 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
 }
 
 impl Object<'_> {
-    /// Every uniform but the textures, by its name in the GLSL files.
-    pub(crate) fn uniforms(&self, scene: &Scene, camera: &Camera) -> [(&'static str, Uniform); 14] {
-        let material = self.material;
-        let triple = |v: Vec3| Uniform::Vec3(vec3(v));
-        let float = |v: f64| Uniform::Float(f32_of(v));
-        [
-            ("u_model", Uniform::Mat4(self.model)),
-            ("u_view_projection", Uniform::Mat4(camera.view_projection)),
-            ("u_cam_pos", Uniform::Vec3(camera.position)),
-            ("u_color", triple(material.color)),
-            ("u_light_pos", triple(scene.light.position)),
-            ("u_light_intensity", triple(scene.light.intensity)),
-            ("u_light_color", triple(scene.light.color)),
-            ("u_ka", float(material.ka)),
-            ("u_kd", float(material.kd)),
-            ("u_ks", float(material.ks)),
-            ("u_shininess", float(material.shininess)),
-            ("u_km", float(material.km)),
-            ("u_normal_scaling", float(material.normal_scaling)),
-            ("u_height_scaling", float(material.height_scaling)),
-        ]
+    /// Every uniform but the textures.
+    pub(crate) fn uniforms(&self, scene: &Scene, camera: &Camera) -> Uniforms {
+        let (material, light) = (self.material, &scene.light);
+        Uniforms {
+            u_model: self.model,
+            u_view_projection: camera.view_projection,
+            u_cam_pos: camera.position,
+            u_color: vec3(material.color),
+            u_light_pos: vec3(light.position),
+            u_light_intensity: vec3(light.intensity),
+            u_light_color: vec3(light.color),
+            u_ka: material.ka as f32,
+            u_kd: material.kd as f32,
+            u_ks: material.ks as f32,
+            u_shininess: Exponent::of(material.shininess as f32),
+            u_km: material.km as f32,
+            u_normal_scaling: material.normal_scaling as f32,
+            u_height_scaling: material.height_scaling as f32,
+        }
+    }
+
+    /// The height map, if the vertex stage reads one.
+    pub(crate) fn height_map(&self) -> Option<Texture> {
+        matches!(self.material.shader, Shader::Displacement | Shader::Custom)
+            .then(|| TextureSource::BuiltIn.texture(&self.material.height_map).unwrap())
     }
 }
 
 fn model(origin: Vec3, scale: f64) -> Columns {
-    let s = f32_of(scale);
+    let s = scale as f32;
     let [x, y, z] = vec3(origin);
     [[s, 0.0, 0.0, 0.0], [0.0, s, 0.0, 0.0], [0.0, 0.0, s, 0.0], [x, y, z, 1.0]]
 }
 
 /// A triple of f64 as GLSL holds it.
 pub(crate) fn vec3(v: Vec3) -> [f32; 3] {
-    [v.x, v.y, v.z].map(f32_of)
-}
-
-pub(crate) fn f32_of(value: f64) -> f32 {
-    value as f32
+    [v.x as f32, v.y as f32, v.z as f32]
 }
