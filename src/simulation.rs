@@ -1,11 +1,16 @@
 //! One simulation: the state of a cloth and the step that moves it on.
 
+mod locate;
+
 use std::time::Instant;
 
 use crate::cloth::collide::Objects;
 use crate::cloth::energy::Energy;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
+use crate::cloth::guard::{Allowance, Budget, first_lost};
+use crate::cloth::ledger::{Ledger, Recorder};
+use crate::cloth::measure::Extremes;
 use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
@@ -24,6 +29,7 @@ pub struct Simulation {
     counters: Counters,
     stopwatch: Stopwatch,
     no_points: Points,
+    guarded: bool,
 }
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
@@ -39,6 +45,11 @@ struct State {
     self_collision: Option<SelfCollision>,
     objects: Option<Objects>,
     stretch_limit: Option<StretchLimit>,
+    recorder: Option<Recorder>,
+    allowance: Allowance,
+    budget: Budget,
+    /// Positions and last positions where the frame began.
+    frame_start: [Points; 2],
 }
 
 /// Wall time spent in each phase since the start, in nanoseconds.
@@ -71,7 +82,25 @@ impl Simulation {
             counters: Counters::default(),
             stopwatch: Stopwatch::default(),
             no_points: Points::default(),
+            guarded: true,
         })
+    }
+
+    /// Puts the points at `x`, coming from `last` one step ago, in metres: another start, or a
+    /// state kept from an earlier run. The springs keep their rest lengths, the clock its time.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] when there is not one position for each point of the cloth.
+    pub fn set_state(&mut self, x: Points, last: Points) -> Result<()> {
+        let points = self.positions().len();
+        if [&x, &last].iter().any(|state| [&state.x, &state.y, &state.z].iter().any(|c| c.len() != points)) {
+            return Err(Error::new(Kind::Scene, format!("the state is not one of {points} points")));
+        }
+        if let Some(cloth) = &mut self.cloth {
+            (cloth.x, cloth.last) = (x, last);
+            cloth.set_budget();
+        }
+        Ok(())
     }
 
     /// Makes one step.
@@ -83,20 +112,29 @@ impl Simulation {
         self.steps += 1;
     }
 
-    /// Makes the steps of one frame, then checks that every position is still a number.
+    /// Makes the steps of one frame, then checks that every position is a number within ±1e15 m
+    /// and, unless [`Simulation::allow_unstable`] was called, that the cloth holds no more energy
+    /// than its forces can give it (`src/cloth/guard.rs` says how much that is).
     ///
     /// # Errors
-    /// [`Kind::Unstable`] when a position is infinite or no number.
+    /// [`Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
     pub fn advance_frame(&mut self) -> Result<()> {
-        let last_good = self.frame();
+        let before = self.steps;
+        if let Some(cloth) = &mut self.cloth {
+            cloth.note_frame_start();
+        }
         (0..self.steps_per_frame).for_each(|_| self.step());
-        let Some(cloth) = &self.cloth else { return Ok(()) };
-        let Some(point) = first_non_finite(&cloth.x) else { return Ok(()) };
-        let (i, j) = cloth.grid.column_row(point);
-        let step = self.steps;
-        let message =
-            format!("unstable: point ({i}, {j}) is lost at step {step}; last good frame: {last_good}");
-        Err(Error::new(Kind::Unstable, message).with_help("raise sim.steps_per_frame or lower cloth.ks"))
+        match &self.cloth {
+            Some(cloth) if !cloth.is_sound(self.guarded) => {
+                Err(locate::error(cloth.at_frame_start(), before, self.steps_per_frame, self.guarded))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Lets the energy of the cloth grow without an error; positions are still checked.
+    pub fn allow_unstable(&mut self) {
+        self.guarded = false;
     }
 
     /// How many frames are complete.
@@ -128,6 +166,28 @@ impl Simulation {
     pub fn energy(&self) -> Energy {
         let Some(cloth) = &self.cloth else { return Energy::default() };
         Energy::new(&cloth.x, &cloth.last, &cloth.springs, &cloth.constants)
+    }
+
+    /// The extremes of the cloth; zero without a cloth.
+    pub fn extremes(&self) -> Extremes {
+        let Some(cloth) = &self.cloth else { return Extremes::default() };
+        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, self.dt)
+    }
+
+    /// Keeps an energy ledger from now on. The cloth moves as without one, to the last bit.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] when the ledger does not fit in memory.
+    pub fn record_ledger(&mut self) -> Result<()> {
+        if let Some(cloth) = &mut self.cloth {
+            cloth.recorder = Some(Recorder::new(cloth.x.len())?);
+        }
+        Ok(())
+    }
+
+    /// The ledger since [`Simulation::record_ledger`], if it was called and there is a cloth.
+    pub fn ledger(&self) -> Option<Ledger> {
+        Some(self.cloth.as_ref()?.recorder.as_ref()?.ledger)
     }
 
     /// A hash over the bits of the whole state: the arrays x, y and z of the positions, then those
@@ -165,8 +225,9 @@ impl State {
         let grid = Grid::new(cloth)?;
         let x = grid::start(cloth, grid)?;
         let springs = Springs::new(cloth, grid, &x)?;
-        Ok(Some(Self {
-            constants: Constants::new(cloth, &scene.sim),
+        let constants = Constants::new(cloth, &scene.sim);
+        let mut state = Self {
+            constants,
             grid,
             pins: Pins::new(cloth, grid)?,
             last: grid::start(cloth, grid)?,
@@ -174,15 +235,53 @@ impl State {
             self_collision: SelfCollision::new(cloth, &scene.sim, grid, &x)?,
             objects: Objects::new(scene),
             stretch_limit: StretchLimit::new(&scene.sim, &springs)?,
+            recorder: None,
+            budget: Budget::default(),
+            frame_start: [Points::zeros(grid.len())?, Points::zeros(grid.len())?],
+            allowance: Allowance::new(scene, cloth, &springs, &constants),
             springs,
             x,
-        }))
+        };
+        state.set_budget();
+        Ok(Some(state))
+    }
+
+    /// Takes the state as the start that the energy is held against.
+    fn set_budget(&mut self) {
+        let energy = Energy::new(&self.x, &self.last, &self.springs, &self.constants);
+        self.budget = self.allowance.budget(&self.x, energy, &self.constants);
+    }
+
+    /// Notes the state before a frame, for the search after a failure.
+    fn note_frame_start(&mut self) {
+        let [x, last] = &mut self.frame_start;
+        x.copy_from(&self.x);
+        last.copy_from(&self.last);
+    }
+
+    /// The state before the frame.
+    fn at_frame_start(&self) -> Self {
+        let [x, last] = self.frame_start.clone();
+        Self { x, last, ..self.clone() }
+    }
+
+    /// The energies of motion and height.
+    fn motion_and_height(&self) -> Energy {
+        Energy::without_springs(&self.x, &self.last, &self.constants)
+    }
+
+    /// Whether all positions are in range and, if `guarded`, the energy is.
+    fn is_sound(&self, guarded: bool) -> bool {
+        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
     }
 
     /// One step of the method. The phases after Verlet's change positions and never `last`.
     fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
-        let Self { constants, pins, springs, x, last, forces, .. } = self;
+        let Self { constants, pins, springs, x, last, forces, recorder, .. } = self;
         stopwatch.start();
+        if let Some(recorder) = recorder {
+            recorder.begin(x, last, springs);
+        }
 
         // 1. Forces: the weight of every point and the pull of every spring.
         forces.compute(x, springs, constants.weight, counters);
@@ -191,30 +290,38 @@ impl State {
         // 2. Verlet: every free point moves on.
         verlet::advance(x, last, &forces.sum, pins, constants, counters);
         stopwatch.lap(|timings| &mut timings.verlet);
+        if let Some(recorder) = recorder {
+            recorder.advanced(x, last, &forces.sum, springs, pins, constants);
+        }
+        let mut book = |x: &Points, last: &Points, entry: fn(&mut Ledger) -> &mut f64| {
+            if let Some(recorder) = recorder {
+                recorder.corrected(x, last, springs, constants, entry);
+            }
+        };
 
         // 3. Self-collision: close points of one box move apart.
         if let Some(self_collision) = &mut self.self_collision {
             self_collision.apply(x, pins, counters);
             stopwatch.lap(|timings| &mut timings.self_collision);
+            book(x, last, |ledger| &mut ledger.self_collision);
         }
 
         // 4. Objects: points that went through a plane or into a sphere are put back.
         if let Some(objects) = &self.objects {
-            objects.collide(x, last, pins, counters);
+            objects.collide_planes(x, last, pins, counters);
+            book(x, last, |ledger| &mut ledger.planes);
+            objects.collide_spheres(x, last, pins, counters);
             stopwatch.lap(|timings| &mut timings.objects);
+            book(x, last, |ledger| &mut ledger.spheres);
         }
 
         // 5. Stretch limit: springs that are too long are shortened.
         if let Some(stretch_limit) = &self.stretch_limit {
             stretch_limit.apply(x, springs, pins, counters);
             stopwatch.lap(|timings| &mut timings.stretch_limit);
+            book(x, last, |ledger| &mut ledger.stretch_limit);
         }
     }
-}
-
-/// The first point with a component that is infinite or no number.
-fn first_non_finite(points: &Points) -> Option<usize> {
-    (0..points.len()).find(|&p| !points.get(p).iter().all(|component| component.is_finite()))
 }
 
 /// Takes the time of the phases, when it was asked to.

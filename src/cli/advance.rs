@@ -20,31 +20,63 @@ pub(super) fn start(
     allow_unstable: bool,
     session: &Session,
 ) -> Result<Simulation> {
-    let simulation = Simulation::new(scene)?;
+    let mut simulation = Simulation::new(scene)?;
+    if allow_unstable {
+        simulation.allow_unstable();
+    }
     if let Some(cloth) = scene.cloth.as_ref().filter(|_| frames > 0) {
         let stability = Stability::new(cloth, &scene.sim)?;
-        match unstable(&stability, scene.sim.steps_per_frame) {
-            Some(error) if allow_unstable => session.ui.note(&format!("warning: {}", error.message)),
-            Some(error) => return Err(error),
-            None => {}
+        if stability.is_unstable_at_rest() {
+            let error = certain(&stability, cloth.ks, scene.sim.steps_per_frame);
+            if !allow_unstable {
+                return Err(error);
+            }
+            session.ui.note(&format!("warning: {error}"));
+        } else if !stability.is_always_stable() {
+            session.ui.note(&format!("warning: {}", possible(&stability, scene.sim.steps_per_frame)));
         }
     }
     Ok(simulation)
 }
 
-fn unstable(stability: &Stability, steps: u32) -> Option<Error> {
-    let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+/// The error of a cloth that vibrates too fast even at rest.
+fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
+    let Stability { mass, dt, limit, omega_rest, .. } = *stability;
+    let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
-        "unstable before the first step: dt * omega is {:.3} at rest, and only below {limit:.3} is stable",
-        dt * omega_rest
+        "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
+    let fewest = stability.fewest_steps(omega_rest);
+    let softer = rounded_down(ks * (limit / (dt * omega_rest)) * (limit / (dt * omega_rest)));
     let help = format!(
-        "raise sim.steps_per_frame from {steps} to at least {} ({} in every configuration), lower cloth.ks, \
-         raise cloth.density, or pass --allow-unstable",
-        stability.fewest_steps(omega_rest),
-        stability.fewest_steps(omega_safe),
+        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; --allow-unstable runs on"
     );
-    stability.is_unstable_at_rest().then(|| Error::new(Kind::Unstable, message).with_help(help))
+    Error::new(Kind::Unstable, message).with_help(help)
+}
+
+/// The warning for a cloth that is stable at rest but perhaps not when it is deformed.
+fn possible(stability: &Stability, steps: u32) -> String {
+    let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+    format!(
+        "the cloth may become unstable when it is deformed: dt·ω is {:.3} at rest but up to {:.3}, and only below \
+         {limit:.3} is stable; steps_per_frame {} instead of {steps} is stable in every configuration",
+        dt * omega_rest,
+        dt * omega_safe,
+        stability.fewest_steps(omega_safe),
+    )
+}
+
+/// Two numbers, the first not below the second, with two decimals or as many more as tell them
+/// apart.
+fn apart(a: f64, b: f64) -> (String, String) {
+    let text = |decimals: usize| (format!("{a:.decimals$}"), format!("{b:.decimals$}"));
+    (2..16).map(text).find(|(a, b)| a != b).unwrap_or_else(|| text(16))
+}
+
+/// `value` with four digits, not above it.
+fn rounded_down(value: f64) -> f64 {
+    // Half a unit of the last digit is at most 5e-4 of the number.
+    format!("{:.3e}", value * (1.0 - 5e-4)).parse().unwrap_or(value)
 }
 
 /// Moves `simulation` on to frame `frames`; `each` sees the start and every frame. Returns the

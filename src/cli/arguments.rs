@@ -13,7 +13,7 @@ use crate::output::atomic;
 
 /// A reference cloth simulator and the software rasteriser that shows it.
 #[derive(Parser)]
-#[command(name = "drape", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(name = "drape", version, max_term_width = 100)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,

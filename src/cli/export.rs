@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::advance::{advance, start};
 use super::scene::{Moment, SceneArgs};
 use super::{Session, outputs};
@@ -23,6 +25,16 @@ pub(super) struct Args {
     moment: Moment,
 }
 
+/// What was exported.
+#[derive(Serialize)]
+struct Summary {
+    mesh: String,
+    frame: u64,
+    time: f64,
+    points: usize,
+    triangles: usize,
+}
+
 /// Simulates and writes the mesh.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
@@ -41,6 +53,12 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;
     atomic::write(&args.mesh, text.as_bytes())?;
     wrote(&args.mesh, session);
+    if session.ui.json {
+        let (frame, time) = (simulation.frame(), simulation.time());
+        let (points, triangles) = (positions.len(), mesh.triangles.len());
+        let mesh = args.mesh.display().to_string();
+        session.print_json(&Summary { mesh, frame, time, points, triangles })?;
+    }
     Ok(())
 }
 

@@ -96,7 +96,10 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        outputs::check(&self.scene.inputs(), all)
+        let textures = self.look.inputs();
+        let inputs: Vec<&Path> =
+            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        outputs::check(&inputs, all)
     }
 
     fn fills_stdout(&self) -> bool {

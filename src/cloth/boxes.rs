@@ -11,7 +11,10 @@ use super::{Points, filled};
 use crate::error::Result;
 
 /// A box, as three integers.
-type Key = [i64; 3];
+type Key = (i64, i64, i64);
+
+/// Points whose bounds are compared at once.
+const BLOCK: usize = 32;
 
 /// The points of a cloth by box.
 #[derive(Clone, Debug)]
@@ -70,13 +73,10 @@ impl Boxes {
     /// Puts every point into its box after the points moved to `x`.
     pub(crate) fn update(&mut self, x: &Points) {
         self.changed.clear();
-        for p in 0..x.len() {
-            if !self.surely_stays(p, x) {
-                let old = self.keys[p];
-                self.place(p, x);
-                if self.keys[p] != old {
-                    self.changed.push(p);
-                }
+        for start in (0..x.len()).step_by(BLOCK) {
+            let block = start..(start + BLOCK).min(x.len());
+            if self.any_may_leave(block.clone(), x) {
+                block.for_each(|p| self.update_point(p, x));
             }
         }
         if !self.changed.is_empty() {
@@ -84,16 +84,29 @@ impl Boxes {
         }
     }
 
-    /// Whether point `p` at `x` is surely in the box where it was.
-    fn surely_stays(&self, p: usize, x: &Points) -> bool {
+    /// Whether one of the points `block` at `x` may have left the box where it was.
+    fn any_may_leave(&self, block: Range<usize>, x: &Points) -> bool {
         let [ax, ay, az] = &self.axes;
-        ax.surely_holds(p, x.x[p]) & ay.surely_holds(p, x.y[p]) & az.surely_holds(p, x.z[p])
+        ax.any_may_leave(block.clone(), &x.x)
+            || ay.any_may_leave(block.clone(), &x.y)
+            || az.any_may_leave(block, &x.z)
+    }
+
+    /// Puts point `p` at `x` into its box.
+    fn update_point(&mut self, p: usize, x: &Points) {
+        if self.any_may_leave(p..p + 1, x) {
+            let old = self.keys[p];
+            self.place(p, x);
+            if self.keys[p] != old {
+                self.changed.push(p);
+            }
+        }
     }
 
     /// Finds the box of point `p` at `x`.
     fn place(&mut self, p: usize, x: &Points) {
         let [ax, ay, az] = &mut self.axes;
-        self.keys[p] = [ax.place(p, x.x[p]), ay.place(p, x.y[p]), az.place(p, x.z[p])];
+        self.keys[p] = (ax.place(p, x.x[p]), ay.place(p, x.y[p]), az.place(p, x.z[p]));
     }
 
     /// Merges the points that changed their box into the rest of the order.
@@ -145,9 +158,14 @@ impl Axis {
         Ok(Self { size, lower: filled(points, 0.0)?, upper: filled(points, 0.0)? })
     }
 
-    /// Whether point `p` at `x` surely has the number that it had.
-    fn surely_holds(&self, p: usize, x: f64) -> bool {
-        (self.lower[p] <= x) & (x <= self.upper[p])
+    /// Whether one of the points `block` at `x` may have left the place where it was.
+    fn any_may_leave(&self, block: Range<usize>, x: &[f64]) -> bool {
+        let (x, lower, upper) = (&x[block.clone()], &self.lower[block.clone()], &self.upper[block]);
+        let mut all_stay = true;
+        for ((x, lower), upper) in x.iter().zip(lower).zip(upper) {
+            all_stay &= (lower <= x) & (x <= upper);
+        }
+        !all_stay
     }
 
     /// The number of the place of point `p` at `x`: `floor(x / size)`.
@@ -186,7 +204,7 @@ mod tests {
         let mut groups = std::collections::BTreeMap::<[i64; 3], Vec<usize>>::new();
         for p in 0..x.len() {
             let at = x.get(p);
-            let key = [0, 1, 2].map(|c| (at[c] / size[c]).floor() as i64);
+            let key = [0, 1, 2].map(|c| number((at[c] / size[c]).floor()));
             groups.entry(key).or_default().push(p);
         }
         groups.into_values().filter(|group| group.len() > 1).collect()
@@ -218,10 +236,11 @@ mod tests {
         for x in [0.0, 0.06, -0.06, 0.18, 6e30, -6e30] {
             let mut axis = Axis::new(0.06, 1).unwrap();
             axis.place(0, x);
-            assert!(!axis.surely_holds(0, x), "{x}");
+            assert!(axis.any_may_leave(0..1, &[x]), "{x}");
         }
         let mut axis = Axis::new(0.06, 1).unwrap();
         assert_eq!(axis.place(0, -0.01), -1);
-        assert!(axis.surely_holds(0, -0.05) && !axis.surely_holds(0, 0.01), "box -1 ends at 0");
+        assert!(!axis.any_may_leave(0..1, &[-0.05]), "box -1 starts at -0.06");
+        assert!(axis.any_may_leave(0..1, &[0.01]), "box -1 ends at 0");
     }
 }

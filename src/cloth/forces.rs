@@ -86,21 +86,43 @@ impl Forces {
     }
 }
 
-/// The pulls of one family on the points that start at index `row`: `e · (k · (l - l0) / l)`, and
-/// zero where the ends meet.
+/// The pulls of one family on the points of the row that starts at index `row`.
 fn pull(x: &Points, family: &Family, row: usize, out: [&mut [f64]; 3]) {
     let n = family.columns.len();
     let a = row + family.columns.start;
     let b = a - family.offset;
     let [out_x, out_y, out_z] = out.map(|out| &mut out[PAD + family.columns.start..][..n]);
-    let (ax, bx) = (&x.x[a..][..n], &x.x[b..][..n]);
-    let (ay, by) = (&x.y[a..][..n], &x.y[b..][..n]);
-    let (az, bz) = (&x.z[a..][..n], &x.z[b..][..n]);
+    let (ax, ay, az) = (&x.x[a..][..n], &x.y[a..][..n], &x.z[a..][..n]);
+    let (bx, by, bz) = (&x.x[b..][..n], &x.y[b..][..n], &x.z[b..][..n]);
     let rest = &family.rest[a..][..n];
+    pull_each(ax, ay, az, bx, by, bz, rest, family.stiffness, out_x, out_y, out_z);
+}
+
+/// `e · (k · (l - l0) / l)` for every pair of points a and b, and zero where they meet.
+#[expect(clippy::too_many_arguments, reason = "the compiler trusts separate slices not to overlap")]
+fn pull_each(
+    ax: &[f64],
+    ay: &[f64],
+    az: &[f64],
+    bx: &[f64],
+    by: &[f64],
+    bz: &[f64],
+    rest: &[f64],
+    stiffness: f64,
+    out_x: &mut [f64],
+    out_y: &mut [f64],
+    out_z: &mut [f64],
+) {
+    let n = rest.len();
+    let (ax, ay, az) = (&ax[..n], &ay[..n], &az[..n]);
+    let (bx, by, bz) = (&bx[..n], &by[..n], &bz[..n]);
+    let (out_x, out_y, out_z) = (&mut out_x[..n], &mut out_y[..n], &mut out_z[..n]);
     for i in 0..n {
         let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
         let l = (ex * ex + ey * ey + ez * ez).sqrt();
-        let scale = if l == 0.0 { 0.0 } else { family.stiffness * (l - rest[i]) / l };
+        // Dividing first and choosing after leaves the loop without a branch, so it is vectorised.
+        let scale = stiffness * (l - rest[i]) / l;
+        let scale = if l == 0.0 { 0.0 } else { scale };
         out_x[i] = ex * scale;
         out_y[i] = ey * scale;
         out_z[i] = ez * scale;

@@ -127,7 +127,7 @@ mod tests {
     fn free_runs_are_the_gaps_between_pins() {
         let pinned = [true, false, false, true, true, false, true];
         assert_eq!(free_runs(&pinned), [1..3, 5..6]);
-        assert_eq!(free_runs(&[false, false]), [0..2,]);
+        assert_eq!(free_runs(&[false, false, true]), vec![0..2]);
         assert!(free_runs(&[true]).is_empty(), "a pinned point is in no run");
     }
 }

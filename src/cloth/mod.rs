@@ -22,8 +22,8 @@
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
 //! # Why the sign of a zero never shows
-//! `x` and `last` are never -0.0: they start at +0.0 or above and below zero, and every update is
-//! `x + something` or `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
+//! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
+//! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 use crate::error::{Error, Kind, Result};
@@ -34,6 +34,9 @@ pub(crate) mod collide;
 pub mod energy;
 pub(crate) mod forces;
 pub mod grid;
+pub(crate) mod guard;
+pub mod ledger;
+pub mod measure;
 pub(crate) mod self_collision;
 pub mod springs;
 pub mod stability;
@@ -59,6 +62,13 @@ impl Points {
     /// [`Kind::Scene`] when they do not fit in memory.
     pub fn zeros(len: usize) -> Result<Self> {
         Ok(Self { x: filled(len, 0.0)?, y: filled(len, 0.0)?, z: filled(len, 0.0)? })
+    }
+
+    /// Takes the vectors of `other`, which has as many, without new memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.x.copy_from_slice(&other.x);
+        self.y.copy_from_slice(&other.y);
+        self.z.copy_from_slice(&other.z);
     }
 
     /// How many points there are.
@@ -125,7 +135,7 @@ pub struct Counters {
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.
     pub boxes_searched: u64,
-    /// Pairs of points whose distance self-collision looked at.
+    /// Pairs of points that shared a box, once a step.
     pub pairs_tested: u64,
     /// Points that self-collision moved.
     pub self_collision_moves: u64,
@@ -133,7 +143,7 @@ pub struct Counters {
     pub object_tests: u64,
     /// Times that an object moved a point.
     pub object_moves: u64,
-    /// Springs that the stretch limit looked at.
+    /// Springs that the stretch limit looked at, once a pass.
     pub springs_checked: u64,
     /// Springs that the stretch limit shortened.
     pub springs_limited: u64,

@@ -4,9 +4,11 @@
 //! So going box by box, and in index order within each, gives what index order over the whole
 //! cloth gives; and a box in which no two points are close at its turn is left as it is.
 
+use std::ops::Range;
+
 use super::boxes::Boxes;
 use super::grid::{Grid, Pins};
-use super::{Counters, Points, dot};
+use super::{Counters, Points};
 use crate::error::Result;
 use crate::scene::{Cloth, SelfCollision as Mode, Sim, Vec3};
 
@@ -74,30 +76,36 @@ impl SelfCollision {
     }
 
     /// Whether two of the first `size` gathered positions may be too close.
+    fn any_close(&self, size: usize) -> bool {
+        (0..size).any(|at| self.close_to_any(at, at + 1..size))
+    }
+
+    /// Whether the gathered position `at` may be too close to one of `others`.
     ///
     /// A pair that is too close never exceeds `reach`: its squared length is below (2 ·
     /// thickness)² but for the rounding of two squares and a root, far less than [`MARGIN`].
-    fn any_close(&self, size: usize) -> bool {
+    fn close_to_any(&self, at: usize, others: Range<usize>) -> bool {
+        let mut any = false;
+        self.squares_from(at, others).for_each(|square| any |= square <= self.reach);
+        any
+    }
+
+    /// The squared distances from the gathered position `at` to `others`, in m².
+    fn squares_from(&self, at: usize, others: Range<usize>) -> impl Iterator<Item = f64> {
         let Points { x, y, z } = &self.positions;
-        (0..size).any(|p| {
-            let others = || p + 1..size;
-            let mut any = false;
-            for ((ox, oy), oz) in x[others()].iter().zip(&y[others()]).zip(&z[others()]) {
-                let (ex, ey, ez) = (x[p] - ox, y[p] - oy, z[p] - oz);
-                any |= ex * ex + ey * ey + ez * ez <= self.reach;
-            }
-            any
+        let (px, py, pz) = (x[at], y[at], z[at]);
+        x[others.clone()].iter().zip(&y[others.clone()]).zip(&z[others]).map(move |((x, y), z)| {
+            let (ex, ey, ez) = (px - x, py - y, pz - z);
+            ex * ex + ey * ey + ez * ez
         })
     }
 
     /// Moves the unpinned members of box `index` one after the other; how many moved.
     fn move_apart(&mut self, index: usize, x: &mut Points, pins: &Pins) -> u64 {
+        let members = self.boxes.members(index);
         let mut moved = 0;
-        for (at, &p) in self.boxes.members(index).iter().enumerate() {
-            if pins.pinned[p] {
-                continue;
-            }
-            if let Some(position) = self.corrected(at, self.boxes.members(index).len()) {
+        for (at, &p) in members.iter().enumerate().filter(|&(_, &p)| !pins.pinned[p]) {
+            if let Some(position) = self.corrected(at, members.len()) {
                 self.positions.set(at, position);
                 x.set(p, position);
                 moved += 1;
@@ -108,15 +116,16 @@ impl SelfCollision {
 
     /// Where the gathered point `at` belongs among the first `size`; nothing when it may stay.
     fn corrected(&self, at: usize, size: usize) -> Option<Vec3> {
+        if !self.close_to_any(at, 0..at) && !self.close_to_any(at, at + 1..size) {
+            return None;
+        }
         let position = self.positions.get(at);
         let (mut sum, mut count) = (Vec3::zeros(), 0.0);
-        for other in 0..size {
-            let e = position - self.positions.get(other);
-            let square = dot(e, e);
+        for (other, square) in self.squares_from(at, 0..size).enumerate() {
             if square <= self.reach {
                 let l = square.sqrt();
                 if 0.0 < l && l < self.distance {
-                    sum += e * ((self.distance - l) / l);
+                    sum += (position - self.positions.get(other)) * ((self.distance - l) / l);
                     count += 1.0;
                 }
             }

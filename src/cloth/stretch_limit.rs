@@ -1,20 +1,21 @@
 //! Phase 5: the stretch limit of Provot 1995. A spring that is too long is shortened to its limit
 //! by moving its ends, in creation order, each seeing what the one before it did.
 //!
-//! Most springs are not too long, so the springs of a block of points are first looked at all at
-//! once. That keeps every bit: the look comes right before the block's turn, so it sees the
-//! positions that the pass would see, and a pass that finds no spring too long moves nothing.
+//! Most springs are not too long, so the springs of a row, and then of a block of its points, are
+//! first looked at all at once. That keeps every bit: the look comes right before their turn, so
+//! it sees the positions that the pass would see, and a pass that finds no spring too long moves
+//! nothing.
 
 use std::ops::Range;
 
 use super::grid::{Grid, Pins};
 use super::springs::{Family, Springs};
-use super::{Counters, Points, filled, len};
+use super::{Counters, Points, dot, filled};
 use crate::error::Result;
-use crate::scene::Sim;
+use crate::scene::{Sim, Vec3};
 
 /// Points in a block.
-const BLOCK: usize = 32;
+const BLOCK: usize = 8;
 
 /// Just below 1: covers the rounding of a squared length, so that no long spring is overlooked.
 const MARGIN: f64 = 1.0 - 1e-12;
@@ -54,6 +55,9 @@ impl StretchLimit {
         let Grid { width, height } = springs.grid;
         for _ in 0..self.passes {
             for j in 0..height {
+                if !self.any_long(x, springs, j, &(0..width)) {
+                    continue;
+                }
                 for start in (0..width).step_by(BLOCK) {
                     let columns = start..(start + BLOCK).min(width);
                     if self.any_long(x, springs, j, &columns) {
@@ -87,21 +91,32 @@ impl StretchLimit {
         counters: &mut Counters,
     ) {
         for i in columns {
-            for family in &springs.families {
+            let a = j * springs.grid.width + i;
+            for (family, reach) in springs.families.iter().zip(&self.reach) {
                 if family.rows.contains(&j) && family.columns.contains(&i) {
-                    let moved = self.shorten_spring(x, family, pins, j * springs.grid.width + i);
-                    counters.springs_limited += u64::from(moved);
+                    let e = x.get(a - family.offset) - x.get(a);
+                    let square = dot(e, e);
+                    if square >= reach[a] {
+                        let moved = self.shorten_spring(x, e, square.sqrt(), family, a, pins);
+                        counters.springs_limited += u64::from(moved);
+                    }
                 }
             }
         }
     }
 
-    /// Shortens the spring of `family` that point `a` made; whether it was too long and could be.
-    fn shorten_spring(&self, x: &mut Points, family: &Family, pins: &Pins, a: usize) -> bool {
+    /// Shortens the spring of `family` that point `a` made, which has length `l` and leads along
+    /// `e` to its other end; whether it was too long and an end could move.
+    fn shorten_spring(
+        &self,
+        x: &mut Points,
+        e: Vec3,
+        l: f64,
+        family: &Family,
+        a: usize,
+        pins: &Pins,
+    ) -> bool {
         let b = a - family.offset;
-        let (from, to) = (x.get(a), x.get(b));
-        let e = to - from;
-        let l = len(e);
         let max = self.factor * family.rest[a];
         if l <= max {
             return false;
@@ -109,11 +124,11 @@ impl StretchLimit {
         let c = e * ((l - max) / l);
         match (pins.pinned[a], pins.pinned[b]) {
             (true, true) => return false,
-            (true, false) => x.set(b, to - c),
-            (false, true) => x.set(a, from + c),
+            (true, false) => x.set(b, x.get(b) - c),
+            (false, true) => x.set(a, x.get(a) + c),
             (false, false) => {
-                x.set(a, from + c * 0.5);
-                x.set(b, to - c * 0.5);
+                x.set(a, x.get(a) + c * 0.5);
+                x.set(b, x.get(b) - c * 0.5);
             }
         }
         true

@@ -39,8 +39,8 @@ pub struct Pixels {
 pub fn encode(width: u32, height: u32, samples: &[u8], effort: Effort) -> Result<Vec<u8>> {
     let pixels = u64::from(width) * u64::from(height);
     let color = match samples.len() as u64 {
-        count if pixels > 0 && count == 3 * pixels => ExtendedColorType::Rgb8,
-        count if pixels > 0 && count == 4 * pixels => ExtendedColorType::Rgba8,
+        count if pixels > 0 && Some(count) == pixels.checked_mul(3) => ExtendedColorType::Rgb8,
+        count if pixels > 0 && Some(count) == pixels.checked_mul(4) => ExtendedColorType::Rgba8,
         count => {
             return Err(Error::new(Kind::Internal, format!("{count} samples for {width} x {height} pixels")));
         }

@@ -13,6 +13,10 @@ pub const MAX_POINTS: usize = 1 << 22;
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
 
+/// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
+/// primitives than the rasteriser can number (see `raster::bin`).
+pub const MAX_RESOLUTION: u32 = 1000;
+
 /// A scene that was read from `document`, under check.
 pub(super) struct Checks<'a> {
     pub(super) report: &'a mut Report,
@@ -107,11 +111,11 @@ impl Checks<'_> {
             return;
         }
         let message = format!(
-            "2 x thickness is {} m, more than the {spacing:.4e} m between neighbouring points",
+            "2 x thickness is {} m, more than the {spacing} m between neighbouring points",
             2.0 * cloth.thickness
         );
         let finding = Finding::new("scene::thickness", message).key("cloth.thickness").help(format!(
-            "self-collision pushes the cloth apart at rest unless this is at most {:.4e}",
+            "self-collision pushes the cloth apart at rest unless this is at most {}",
             spacing / 2.0
         ));
         if let Some(place) = self.span("cloth.thickness") {

@@ -1,5 +1,6 @@
 //! Every key of a scene file: one line each, with its default and what it must be.
 
+use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
 use super::names::{DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
@@ -17,7 +18,7 @@ const ORIENTATIONS: &[(i64, Orientation)] = &[(0, Orientation::Horizontal), (1, 
 /// Most points along one side of a cloth; `checks.rs` limits their product.
 const SIDE: Count = Count(2, 1 << 21);
 /// Latitude and longitude counts whose triangles can still be numbered in 24 bits.
-const RESOLUTION: Counts = Counts([Count(2, 2048), Count(3, 2048)]);
+const RESOLUTION: Counts = Counts([Count(2, MAX_RESOLUTION), Count(3, MAX_RESOLUTION)]);
 /// Fields of view whose tangent is neither 0 nor infinite in binary32.
 const FIELD_OF_VIEW: Number = Number(from_to(0.001, 179.999).unit("degrees"));
 /// Width and height of a picture.

@@ -86,10 +86,10 @@ pub(super) fn parse(report: &mut Report, source: usize, start: usize) -> Option<
     let mut tree = Tree { report, source, start };
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Err(error) => tree.syntax_error(&error),
-        Ok(parsed) => match parsed.value {
-            Some(value) if tree.is_json(text) => tree.node(value, &Path::ROOT),
-            Some(_) => None,
-            None => tree.nothing_there(text.len()),
+        Ok(parsed) => match (parsed.value, loose_character(text)) {
+            (_, Some((range, reason))) => tree.not_json(range, reason),
+            (Some(value), None) => tree.node(value, &Path::ROOT),
+            (None, None) => tree.not_json(Range::new(0, text.len()), "there is no value here"),
         },
     }
 }
@@ -166,44 +166,36 @@ impl Tree<'_> {
     }
 
     fn syntax_error<T>(&mut self, error: &ParseError) -> Option<T> {
-        let span = self.span(error.range());
-        if matches!(error.kind(), ParseErrorKind::NestingDepthExceeded) {
-            return self.too_deep(span);
+        match error.kind() {
+            ParseErrorKind::NestingDepthExceeded => self.too_deep(self.span(error.range())),
+            kind => self.not_json(error.range(), &reason(kind)),
         }
-        self.not_json(span, &reason(error.kind()))
     }
 
-    fn nothing_there<T>(&mut self, len: usize) -> Option<T> {
-        self.not_json(self.span(Range { start: 0, end: len }), "there is no value here")
-    }
-
-    /// Whether `text` is JSON also for a second, stricter reader: the parser above lets control
-    /// characters in strings and uncommon white space pass.
-    fn is_json(&mut self, text: &str) -> bool {
-        let Err(error) = serde_json::from_str::<serde::de::IgnoredAny>(text) else { return true };
-        if error.to_string().starts_with("recursion limit") {
-            return true; // `node` reports this with our own limit, which is lower
-        }
-        let message = error.to_string();
-        let at = offset(text, error.line(), error.column());
-        let next = text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-        let span = self.span(Range { start: at, end: at + next });
-        self.not_json::<()>(span, message.split(" at line ").next().unwrap_or(&message));
-        false
-    }
-
-    fn not_json<T>(&mut self, span: Span, reason: &str) -> Option<T> {
+    fn not_json<T>(&mut self, range: Range, reason: &str) -> Option<T> {
+        let span = self.span(range);
         self.report
             .error(Finding::new("scene::syntax", format!("not valid JSON: {reason}")).at(span, "here"));
         None
     }
 }
 
-/// Byte offset of the character that holds the one-based `column`, in bytes, of `line`.
-fn offset(text: &str, line: usize, column: usize) -> usize {
-    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-    let at = (before + column.saturating_sub(1)).min(text.len());
-    (0..=at).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
+/// What the parser lets pass though it is not JSON: control characters in strings, and white space
+/// of other kinds than space, tab and line end. `text` has passed the parser.
+fn loose_character(text: &str) -> Option<(Range, &'static str)> {
+    let (mut in_string, mut escaped) = (false, false);
+    for (start, c) in text.char_indices() {
+        let range = Range { start, end: start + c.len_utf8() };
+        match c {
+            '"' if !escaped => in_string = !in_string,
+            '\0'..='\x1f' if in_string => return Some((range, "control characters in text must be escaped")),
+            ' ' | '\t' | '\n' | '\r' | '!'..='~' => {}
+            _ if !in_string => return Some((range, "this character is not allowed here")),
+            _ => {}
+        }
+        escaped = in_string && c == '\\' && !escaped;
+    }
+    None
 }
 
 /// What is wrong, in words that say what to change.
@@ -226,4 +218,79 @@ fn reason(kind: &ParseErrorKind) -> String {
 fn lower_first(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn read(text: &str) -> (Option<Node>, Vec<crate::error::Diagnostic>) {
+        let mut report = Report::default();
+        let source = report.add_source("x.json", text);
+        let node = parse(&mut report, source, 0);
+        (node, report.finish().err().map(|error| error.diagnostics).unwrap_or_default())
+    }
+
+    #[test]
+    fn every_value_knows_its_place() {
+        let text = r#"{"a": [1, "ü\n", {"b": null}]}"#;
+        let (node, errors) = read(text);
+        let node = node.unwrap();
+        assert_eq!(errors, []);
+        let place = |path: &str| {
+            let span = node.get(path).unwrap().span;
+            &text[span.start..span.end]
+        };
+        assert_eq!(place("a"), r#"[1, "ü\n", {"b": null}]"#);
+        assert_eq!((place("a.0"), place("a.1"), place("a.2.b")), ("1", r#""ü\n""#, "null"));
+        assert_eq!(node.get("a.1").unwrap().json, Json::Text("ü\n".into()));
+        assert_eq!(node.get("a.3"), None);
+    }
+
+    #[test]
+    fn the_first_of_two_equal_keys_is_kept() {
+        let (node, errors) = read(r#"{"a": {"b": 1, "b": 2, "\u0062": 3}}"#);
+        assert_eq!(node.unwrap().get("a.b").unwrap().json, Json::Number(1.0));
+        let found: Vec<_> = errors.iter().map(|e| (e.code, e.column, e.key.as_str())).collect();
+        assert_eq!(found, [("scene::duplicate_key", 16, "a.b"), ("scene::duplicate_key", 24, "a.b")]);
+    }
+
+    /// Pieces of JSON and what is nearly JSON, to be strung together.
+    fn pieces() -> impl Strategy<Value = String> {
+        let pieces = [
+            "{", "}", "[", "]", ",", ":", " ", "\n", "\t", "\u{b}", "\u{a0}", "\u{feff}", "\"a\"", "\"",
+            "\\", "\\u", "\\n", "d800", "0041", "1", "0", "-", "+", ".", "e", "E", "5", "true", "null", "x",
+            "'", "/", "*", "\0", "\r",
+        ];
+        prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..9).prop_map(|words| words.concat())
+    }
+
+    fn agrees_with_serde_json(text: &str) -> Result<(), TestCaseError> {
+        let (node, errors) = read(text);
+        let theirs: Result<serde_json::Value, _> = serde_json::from_str(text);
+        // Its numbers end where binary64 does; then only its grammar can be compared.
+        let theirs = match &theirs {
+            Err(e) if e.to_string().starts_with("number out of range") => {
+                prop_assume!(!text.contains('\\'));
+                serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok()
+            }
+            theirs => theirs.is_ok(),
+        };
+        let ours = node.is_some() && errors.iter().all(|e| e.code == "scene::duplicate_key");
+        prop_assert_eq!(ours, theirs, "{:?}", text);
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn what_is_json_is_decided_as_serde_json_does(text in pieces()) {
+            agrees_with_serde_json(&text)?;
+            agrees_with_serde_json(&format!("[{text}]"))?;
+            agrees_with_serde_json(&format!("{{\"k\": {text}}}"))?;
+            agrees_with_serde_json(&format!("\"{text}\""))?;
+        }
+    }
 }

@@ -26,7 +26,7 @@ mod words;
 
 use nalgebra::Vector3;
 
-pub use checks::{MAX_OBJECTS, MAX_POINTS};
+pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
 
@@ -103,7 +103,8 @@ pub struct Sphere {
     pub radius: f64,
     /// Part of the sliding that contact takes away (0..=1).
     pub friction: f64,
-    /// Latitude and longitude counts of the drawn mesh (latitude 2..=2048, longitude 3..=2048).
+    /// Latitude and longitude counts of the drawn mesh (latitude 2..=[`MAX_RESOLUTION`],
+    /// longitude 3..=[`MAX_RESOLUTION`]).
     pub resolution: [u32; 2],
     /// What the ball looks like.
     pub material: Material,

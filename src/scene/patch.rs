@@ -165,3 +165,70 @@ fn no_such_place(step: &Step, path: &str, kind: &str) -> Finding {
         .at(step.span, "no such place")
         .key(key)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn node(text: &str) -> Node {
+        let mut report = Report::default();
+        let source = report.add_source("x.json", text);
+        parse(&mut report, source, 0).unwrap()
+    }
+
+    fn plain(node: &Node) -> serde_json::Value {
+        match &node.json {
+            Json::Null => serde_json::Value::Null,
+            Json::Bool(value) => (*value).into(),
+            Json::Number(value) => (*value).into(),
+            Json::Text(text) => text.as_str().into(),
+            Json::List(items) => items.iter().map(plain).collect(),
+            Json::Object(members) => members.iter().map(|m| (m.key.clone(), plain(&m.value))).collect(),
+        }
+    }
+
+    #[test]
+    fn merge_gives_every_example_of_rfc_7396() {
+        // Appendix A: original, patch, result.
+        let examples = [
+            (r#"{"a":"b"}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"a":null}"#, r#"{}"#),
+            (r#"{"a":"b","b":"c"}"#, r#"{"a":null}"#, r#"{"b":"c"}"#),
+            (r#"{"a":["b"]}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"c"}"#, r#"{"a":["b"]}"#, r#"{"a":["b"]}"#),
+            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
+            (r#"["a","b"]"#, r#"["c","d"]"#, r#"["c","d"]"#),
+            (r#"{"a":"b"}"#, r#"["c"]"#, r#"["c"]"#),
+            (r#"{"a":"foo"}"#, r#"null"#, r#"null"#),
+            (r#"{"a":"foo"}"#, r#""bar""#, r#""bar""#),
+            (r#"{"e":null}"#, r#"{"a":1}"#, r#"{"e":null,"a":1}"#),
+            (r#"[1,2]"#, r#"{"a":"b","c":null}"#, r#"{"a":"b"}"#),
+            (r#"{}"#, r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
+        ];
+        for (original, patch, result) in examples {
+            let merged = merge(node(original), node(patch));
+            assert_eq!(plain(&merged), plain(&node(result)), "{original} with {patch}");
+        }
+    }
+
+    fn after(text: &str, set: &str) -> String {
+        let mut report = Report::default();
+        let mut document = node(text);
+        let set = read_set(&mut report, set).unwrap().unwrap();
+        apply(&mut report, &mut document, set);
+        report.finish().unwrap();
+        plain(&document).to_string()
+    }
+
+    #[test]
+    fn a_set_replaces_what_is_there_and_makes_what_is_not() {
+        assert_eq!(after(r#"{"a": {"b": 1}}"#, "a.b=true"), r#"{"a":{"b":true}}"#);
+        assert_eq!(after(r#"{"a": {"b": 1}}"#, r#"a={"c": "x=y"}"#), r#"{"a":{"c":"x=y"}}"#);
+        assert_eq!(after("{}", "a.b.c=null"), r#"{"a":{"b":{"c":null}}}"#);
+        assert_eq!(after(r#"{"a": [true, [false]]}"#, "a.1.0=null"), r#"{"a":[true,[null]]}"#);
+        assert_eq!(after("{}", "a=bump"), r#"{"a":"bump"}"#);
+        assert_eq!(after("{}", "a= \"bump\" "), r#"{"a":"bump"}"#);
+    }
+}

@@ -257,3 +257,6 @@ fn images(drawn: &[(String, &Material)]) -> [Images; 2] {
     }
     [textures, environments]
 }
+
+#[cfg(test)]
+mod tests;

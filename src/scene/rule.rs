@@ -59,7 +59,7 @@ impl At<'_> {
     ) -> Option<[T; N]> {
         let Json::List(items) = &self.node.json else { return self.wrong_type(words) };
         if items.len() != N {
-            let message = format!("`{}` has {} values but must be {words}", self.key, items.len());
+            let message = format!("`{}` has length {} but must be {words}", self.key, items.len());
             let finding =
                 Finding::new("scene::wrong_length", message).at(self.node.span, "wrong length").key(self.key);
             self.report.error(finding);

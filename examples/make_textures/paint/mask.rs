@@ -24,8 +24,7 @@ impl Mask {
         for y in cell(low[1]).max(0)..=cell(high[1]).min(SIDE as i64 - 1) {
             for x in left..=right {
                 if inside(middle(x), middle(y)) {
-                    let column = x.rem_euclid(SIDE as i64).unsigned_abs() as usize;
-                    self.cells[y.unsigned_abs() as usize * SIDE + column] = true;
+                    self.cells[index(y) * SIDE + index(x.rem_euclid(SIDE as i64))] = true;
                 }
             }
         }
@@ -47,7 +46,7 @@ impl Mask {
         });
     }
 
-    /// Covers a convex or concave polygon (even-odd rule).
+    /// Covers a polygon (even-odd rule).
     pub(super) fn polygon(&mut self, points: &[[f64; 2]]) {
         let bound = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
             points.iter().fold(start, |found, point| pick(found, point[axis]))
@@ -65,7 +64,7 @@ impl Mask {
 
     /// The covered part of the texel whose middle is (u, v).
     pub(super) fn cover(&self, u: f64, v: f64) -> f64 {
-        let corner = |place: f64| (cell(place) - FINE as i64 / 2).unsigned_abs() as usize;
+        let corner = |place: f64| index(cell(place) - FINE as i64 / 2);
         let (left, top) = (corner(u), corner(v));
         let rows = (top..top + FINE).map(|y| &self.cells[y * SIDE + left..y * SIDE + left + FINE]);
         rows.flatten().filter(|&&covered| covered).count() as f64 / (FINE * FINE) as f64
@@ -75,6 +74,11 @@ impl Mask {
 #[expect(clippy::cast_possible_truncation, reason = "places are near 0..1")]
 fn cell(place: f64) -> i64 {
     (place * SIDE as f64).floor() as i64
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cell inside the mask")]
+fn index(cell: i64) -> usize {
+    cell as usize
 }
 
 fn middle(cell: i64) -> f64 {

@@ -1,12 +1,15 @@
 //! The pictures as functions of place. Only + - × ÷, square roots and `drape::math`.
 
+mod bridge;
 mod color;
 mod environment;
 mod grid;
+mod landscape;
 mod mask;
 mod noise;
 mod plaid;
 mod stone;
+mod street;
 mod sunset;
 
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use drape::math::splitmix64;
 
-/// Largest whole number of cells along an axis that a pattern may take to repeat.
+/// Cells along an axis after which a pattern repeats that seems not to.
 const NEVER: i64 = 1 << 30;
 
 /// The whole part and the rest of a number.
@@ -37,8 +37,12 @@ impl Noise {
 
     /// The hash of lattice point (x, y).
     fn bits(self, x: i64, y: i64) -> u64 {
-        let [x, y] = [x.rem_euclid(self.period[0]), y.rem_euclid(self.period[1])];
-        splitmix64(self.seed ^ splitmix64(x.unsigned_abs() << 32 | y.unsigned_abs()))
+        let wrap = |place: i64, cells: i64| {
+            let place = if (0..cells).contains(&place) { place } else { place.rem_euclid(cells) };
+            place.unsigned_abs()
+        };
+        let [x, y] = [wrap(x, self.period[0]), wrap(y, self.period[1])];
+        splitmix64(self.seed.wrapping_mul(0xD6E8_FEB8_6659_FD93) ^ (x << 32 | y))
     }
 
     /// A number in 0..1 for the lattice cell that holds (x, y).

@@ -1,84 +1,105 @@
 //! `texture_1`: a sunset over a street with trees. It joins left to right, to go around a ball.
 
+use std::f64::consts::TAU;
+
+use drape::math::sin;
+
 use super::color::{Color, add, hex, mix, ramp, scale, smooth};
 use super::mask::Mask;
-use super::noise::{Noise, Random};
-use super::{Picture, paint as paint_each};
+use super::noise::Noise;
+use super::{Picture, paint as paint_each, street};
 
-/// Where the far ground meets the sky, from the top.
-const HORIZON: f64 = 0.745;
-const SUN: [f64; 2] = [0.545, 0.685];
+/// Where the ground meets the sky, from the top.
+pub(super) const HORIZON: f64 = 0.745;
+/// The middle of the sun, (u, v).
+const SUN: [f64; 2] = [0.596, 0.676];
+/// Rows of clouds never repeat; columns do after a whole number of cells.
+const ROWS: i64 = 1 << 20;
+
+/// Where the far trees begin, from the top.
+fn treeline(u: f64) -> f64 {
+    let bushes = Noise::periodic(31, 18, ROWS).fractal(u * 18.0, 0.5, 5);
+    let woods = Noise::periodic(32, 5, ROWS).at(u * 5.0, 0.5);
+    HORIZON - 0.022 - 0.018 * woods - 0.012 * bushes
+}
 
 pub(super) fn paint() -> Picture {
-    let trees = trees();
+    let street = street::Street::new();
+    let mut woods = Mask::new();
+    woods.fill([0.0, 0.6], [0.9999, HORIZON + 0.02], |u, v| v > treeline(u));
     paint_each(|u, v| {
+        let shine = shine(u, v);
         let mut color = sky(u, v);
-        color = mix(color, hex(0x1a0f0c), trees.cover(u, v));
-        color = mix(color, hex(0x140d10), smooth(HORIZON - 0.001, HORIZON + 0.001, v));
-        color
+        color = mix(color, mix(hex(0x3a1d12), hex(0x6b3316), shine), woods.cover(u, v));
+        color = street.over(color, u, v, shine);
+        let glare = add(color, scale([0.42, 0.22, 0.07], shine * shine * 0.5));
+        let grain = 1.0 + 0.02 * (Noise::new(7).cell(u * 512.0, v * 512.0) - 0.5);
+        scale(glare, grain)
     })
 }
 
-/// Distance around the picture, -0.5..0.5.
-fn around(u: f64, from: f64) -> f64 {
-    let d = u - from;
-    d - d.round()
+/// The way around the picture from `from` to `to`, -0.5..0.5.
+fn around(from: f64, to: f64) -> f64 {
+    let way = to - from;
+    way - way.round()
+}
+
+/// How much the sun dazzles at a place, 0..1.
+fn shine(u: f64, v: f64) -> f64 {
+    let (du, dv) = (around(SUN[0], u), (v - SUN[1]) * 1.3);
+    1.0 / (1.0 + (du * du + dv * dv) * 130.0)
 }
 
 fn clear_sky(u: f64, v: f64) -> Color {
-    let base = ramp(
-        &[
-            (0.0, hex(0x6b4a4c)),
-            (0.18, hex(0xa9683f)),
-            (0.38, hex(0xd98432)),
-            (0.56, hex(0xf6a034)),
-            (0.66, hex(0xffb545)),
-            (0.76, hex(0xf27a1e)),
-        ],
-        v,
-    );
-    let (dx, dy) = (around(u, SUN[0]), (v - SUN[1]) * 1.25);
-    let near = (dx * dx + dy * dy).sqrt();
-    let glow = 1.0 / (1.0 + near * near * 160.0);
-    add(base, scale([0.5, 0.32, 0.12], glow))
+    let stops = [
+        (0.0, hex(0x664650)),
+        (0.15, hex(0xa06044)),
+        (0.34, hex(0xd07c38)),
+        (0.52, hex(0xf39a30)),
+        (0.64, hex(0xffb23c)),
+        (0.76, hex(0xee6f1c)),
+    ];
+    let (du, dv) = (around(SUN[0], u), (v - SUN[1]) * 1.05);
+    let disc = smooth(0.025, 0.021, (du * du + dv * dv).sqrt());
+    let glow = shine(u, v);
+    let haze = add(ramp(&stops, v), scale([0.45, 0.33, 0.13], glow));
+    mix(haze, hex(0xfff6cf), disc)
 }
 
-/// How thick the clouds are at a place, 0..1. Rows crowd toward the horizon, as seen from below.
-fn clouds(u: f64, v: f64) -> f64 {
-    let depth = 0.55 / (HORIZON + 0.13 - v);
-    let warp = Noise::periodic(11, 4, 1 << 20).fractal(u * 4.0, depth * 3.0, 3);
-    let thick = Noise::periodic(12, 6, 1 << 20).fractal(u * 6.0 + warp * 0.45, depth * 7.0 + warp * 0.5, 6);
-    let banks = Noise::periodic(13, 2, 1 << 20).fractal(u * 2.0, depth * 3.5, 2);
-    smooth(-0.15, 0.75, thick + banks * 0.7)
+/// How thick a sheet of clouds is at a place, about -1..1, seen from below: it crowds toward the
+/// horizon. `columns` cells go around, `rows` says how flat the clouds are.
+fn sheet(seed: u64, columns: i64, rows: f64, u: f64, v: f64) -> f64 {
+    let depth = 0.6 / (HORIZON + 0.14 - v);
+    let across = u * columns as f64;
+    let warp = Noise::periodic(seed, columns, ROWS).fractal(across, depth * rows * 0.4, 3);
+    Noise::periodic(seed + 1, columns, ROWS).fractal(across + warp * 0.5, depth * rows + warp * 0.4, 6)
 }
 
+/// Puts clouds of the given thickness before the sky. They are lit from the sun's side, that is
+/// from below and from where the sun stands; `contrast` tells lit from dark.
+fn lit_clouds(behind: Color, u: f64, v: f64, contrast: f64, thick: impl Fn(f64, f64) -> f64) -> Color {
+    let here = thick(u, v);
+    let toward_sun = thick(u + 0.016 * sin(TAU * (SUN[0] - u)), v + 0.019);
+    let light = (0.48 + (here - toward_sun) * contrast).clamp(0.0, 1.0);
+    let dark = mix(hex(0x6e3c40), hex(0xa8501e), smooth(0.1, 0.7, v));
+    let bright = mix(hex(0xf0985a), hex(0xffdc84), smooth(0.1, 0.55, v));
+    mix(behind, mix(dark, bright, light), here)
+}
+
+/// Soft veils high up, ranks of small clouds in the middle, thin bars over the horizon.
 fn sky(u: f64, v: f64) -> Color {
-    let clear = clear_sky(u, v);
-    let here = clouds(u, v);
-    let below = clouds(u + around(SUN[0], u) * 0.02, v + 0.012);
-    let lit = (0.45 + (here - below) * 2.2).clamp(0.0, 1.0);
-    let dark = mix(hex(0x5a3230), hex(0x9a4a22), v);
-    let bright = mix(hex(0xf0a050), hex(0xffd070), smooth(0.2, 0.65, v));
-    mix(clear, mix(dark, bright, lit), here * 0.8)
-}
-
-fn trees() -> Mask {
-    let mut mask = Mask::new();
-    let mut random = Random::new(1);
-    branch(&mut mask, &mut random, [0.45, HORIZON + 0.01], [0.0, -0.06], 0.008, 7);
-    mask
-}
-
-fn branch(mask: &mut Mask, random: &mut Random, from: [f64; 2], along: [f64; 2], width: f64, depth: u32) {
-    let to = [from[0] + along[0], from[1] + along[1]];
-    mask.stroke(from, to, width, width * 0.7);
-    if depth == 0 {
-        return;
-    }
-    for _ in 0..3 {
-        let turn = random.between(-0.8, 0.8);
-        let grow = random.between(0.6, 0.85);
-        let next = [(along[0] - along[1] * turn) * grow, (along[1] + along[0] * turn) * grow];
-        branch(mask, random, to, next, width * 0.66, depth - 1);
-    }
+    let veils = |u: f64, v: f64| 0.6 * smooth(-0.5, 1.1, sheet(11, 4, 7.0, u, v));
+    let ranks = |u: f64, v: f64| {
+        let rank = smooth(0.08, 0.30, v) * smooth(0.62, 0.42, v);
+        let gaps = Noise::periodic(20, 3, ROWS).fractal(u * 3.0, v * 7.0, 3);
+        0.92 * smooth(0.05, 0.75, sheet(14, 7, 13.0, u, v) * 0.8 + 0.9 * rank - 0.55 + 0.7 * gaps)
+    };
+    let bars = sheet(17, 3, 8.0, u, v) + 0.5 * smooth(0.5, 0.66, v) - 0.28;
+    let color = lit_clouds(clear_sky(u, v), u, v, 1.3, veils);
+    let color = lit_clouds(color, u, v, 1.15, ranks);
+    mix(
+        color,
+        mix(hex(0x8c4020), hex(0xffc468), shine(u, v)),
+        0.7 * smooth(0.1, 0.7, bars) * smooth(0.25, 0.45, v),
+    )
 }

@@ -1,24 +1,11 @@
-//! Textures: what is decoded is what the file says, what cannot be decoded is an error that names
-//! the file, and the built-in set is what its generator paints.
+//! Files of every kind become the right numbers, or an error.
 
-#![expect(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
-
-use std::fs;
-use std::io::Cursor;
-use std::path::Path;
-
-use drape::cubemap::{Cubemap, FACES};
 use drape::error::Kind;
 use drape::texture::{MAX_SIDE, Texture};
-use drape::texture_source::TextureSource;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgba, RgbaImage};
 use proptest::prelude::*;
 
-fn encode(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
-    let mut bytes = Cursor::new(Vec::new());
-    image.write_to(&mut bytes, format).unwrap();
-    bytes.into_inner()
-}
+use crate::encode;
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
     encode(&image.into(), ImageFormat::Png)
@@ -134,6 +121,17 @@ fn a_file_cut_short_is_refused_at_every_length() {
     }
 }
 
+/// A thumbnail in front of the picture has an end of its own, which is not the end of the file.
+#[test]
+fn the_end_of_a_thumbnail_is_not_the_end_of_a_jpeg() {
+    let mut bytes = encode(&rgb(20, 20), ImageFormat::Jpeg);
+    let plain = texels(&bytes);
+    bytes.splice(2..2, [0xFF, 0xE1, 0, 6, 0xFF, 0xD8, 0xFF, 0xD9]);
+    assert_eq!(texels(&bytes), plain);
+    bytes.truncate(bytes.len() - 2);
+    assert_refused(&bytes, "cut short");
+}
+
 #[test]
 fn a_corrupt_checksum_is_refused() {
     let mut bytes = png(rgb(20, 20));
@@ -217,155 +215,4 @@ fn from_rgb_wants_exactly_width_times_height() {
         assert_eq!(Texture::from_rgb(width, height, &rgb).unwrap_err().kind, Kind::Internal);
     }
     assert_eq!(Texture::from_rgb(0, 0, &[]).unwrap_err().kind, Kind::Internal);
-}
-
-fn flat(width: usize, height: usize) -> Texture {
-    Texture::from_rgb(width, height, &vec![[0.5; 3]; width * height]).unwrap()
-}
-
-#[test]
-fn a_cube_map_wants_square_faces_of_one_size() {
-    let cube = Cubemap::new("room", [(); 6].map(|()| flat(4, 4))).unwrap();
-    assert_eq!((cube.size(), cube.faces().len()), (4, 6));
-    for (face, name) in FACES.iter().enumerate() {
-        let mut faces = [(); 6].map(|()| flat(4, 4));
-        faces[face] = flat(4, 3);
-        let error = Cubemap::new("room", faces).unwrap_err();
-        assert_eq!(error.kind, Kind::Scene);
-        assert_eq!(error.message, format!("cube map room: face {name} is 4 x 3: not square"));
-    }
-    let mut faces = [(); 6].map(|()| flat(4, 4));
-    faces[4] = flat(8, 8);
-    let message = Cubemap::new("room", faces).unwrap_err().message;
-    assert_eq!(message, "cube map room: face posz is 8 x 8: differs from posx, which is 4 x 4");
-}
-
-/// A folder with the given files, each a small picture in its own colour.
-fn folder(files: &[(&str, [u8; 3])]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (file, color) in files {
-        let path = folder.path().join(file);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        let image: DynamicImage = image::RgbImage::from_pixel(8, 8, Rgb(*color)).into();
-        fs::write(&path, encode(&image, ImageFormat::from_path(&path).unwrap())).unwrap();
-    }
-    folder
-}
-
-fn source(path: &Path) -> TextureSource {
-    TextureSource::Folder(path.to_owned())
-}
-
-#[test]
-fn a_folder_gives_png_before_jpg_before_jpeg() {
-    let (first, second, third) = ([255, 0, 0], [0, 255, 0], [0, 0, 255]);
-    let folder = folder(&[
-        ("a.png", first),
-        ("a.jpg", second),
-        ("a.jpeg", third),
-        ("b.jpg", second),
-        ("b.jpeg", third),
-        ("c.jpeg", third),
-    ]);
-    for (name, strongest) in [("a", 0), ("b", 1), ("c", 2)] {
-        let texel = source(folder.path()).texture(name).unwrap().texel(3, 3);
-        assert!(texel[strongest] > 0.9, "{name}: {texel:?}");
-    }
-}
-
-#[test]
-fn a_missing_texture_says_what_was_looked_for_and_what_is_there() {
-    let folder = folder(&[("stone.png", [9; 3]), ("bark.jpg", [9; 3])]);
-    let error = source(folder.path()).texture("brick").unwrap_err();
-    assert_eq!(error.kind, Kind::Scene);
-    let place = folder.path().display();
-    assert_eq!(
-        error.to_string(),
-        format!(
-            "there is no texture brick in {place}: looked for brick.png, brick.jpg and brick.jpeg; \
-             the folder holds bark.jpg, stone.png"
-        )
-    );
-    let error = source(&folder.path().join("nowhere")).texture("brick").unwrap_err();
-    assert_eq!(error.kind, Kind::Scene);
-    assert!(error.help.contains("does not exist"), "{error}");
-}
-
-#[test]
-fn a_full_folder_is_not_listed_to_the_end() {
-    let folder = tempfile::tempdir().unwrap();
-    assert_eq!(source(folder.path()).texture("x").unwrap_err().help, "the folder is empty");
-    for i in 10..35 {
-        fs::write(folder.path().join(format!("{i}.txt")), "").unwrap();
-    }
-    let help = source(folder.path()).texture("x").unwrap_err().help;
-    assert!(help.ends_with("28.txt, 29.txt and 5 more"), "{help}");
-}
-
-#[test]
-fn a_name_cannot_lead_out_of_the_folder() {
-    let outer = folder(&[("secret.png", [9; 3]), ("inner/open.png", [9; 3])]);
-    let inner = source(&outer.path().join("inner"));
-    inner.texture("open").unwrap();
-    let absolute = outer.path().join("secret").display().to_string();
-    for name in ["../secret", "..", ".", "", "/", "./open", "open/", &absolute] {
-        for error in [inner.texture(name).unwrap_err(), inner.cubemap(name).unwrap_err()] {
-            assert_eq!(error.kind, Kind::Scene);
-            assert!(error.message.contains("is not the name of a texture"), "{name:?}: {error}");
-        }
-    }
-}
-
-#[test]
-fn what_is_not_a_readable_picture_is_an_error_that_names_it() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("a.png")).unwrap();
-    assert!(source(folder.path()).texture("a").unwrap_err().message.contains("no texture a"));
-    fs::write(folder.path().join("b.png"), "text").unwrap();
-    let error = source(folder.path()).texture("b").unwrap_err();
-    assert_eq!(error.kind, Kind::Scene);
-    assert!(error.message.contains("b.png"), "{error}");
-}
-
-#[test]
-fn a_cube_map_of_a_folder_is_in_order_and_complete() {
-    let files = FACES.map(|face| format!("sky/{face}.png"));
-    let colors: Vec<_> = (1..=6_u8).zip(&files).map(|(i, file)| (file.as_str(), [i; 3])).collect();
-    let folder = folder(&colors);
-    let cube = source(folder.path()).cubemap("sky").unwrap();
-    for (face, want) in cube.faces().iter().zip(1..=6_u8) {
-        assert_eq!(face.texel(0, 0)[0], f32::from(want) / 255.0);
-    }
-    fs::remove_file(folder.path().join("sky/negy.png")).unwrap();
-    let error = source(folder.path()).cubemap("sky").unwrap_err();
-    assert!(error.message.contains("looked for negy.png"), "{error}");
-}
-
-/// A broken neighbour does no harm: only what is asked for is opened.
-#[test]
-fn only_what_is_asked_for_is_opened() {
-    let folder = folder(&[("good.png", [9; 3])]);
-    for broken in ["other.png", "good.jpg", "good.jpeg"] {
-        fs::write(folder.path().join(broken), "no picture").unwrap();
-    }
-    source(folder.path()).texture("good").unwrap();
-}
-
-#[test]
-fn unknown_built_in_names_list_the_known_ones() {
-    let error = TextureSource::BuiltIn.texture("texture_9").unwrap_err();
-    assert_eq!(error.kind, Kind::Scene);
-    let known = "texture_1, texture_2, texture_3, texture_4";
-    assert!(error.message.contains("\"texture_9\"") && error.help.contains(known), "{error}");
-    let error = TextureSource::BuiltIn.cubemap("texture_1").unwrap_err();
-    assert!(error.message.contains("cube map \"texture_1\"") && error.help.contains("cube"), "{error}");
-}
-
-#[test]
-fn the_built_in_set_is_512_a_side() {
-    for name in ["texture_1", "texture_2", "texture_3", "texture_4"] {
-        let texture = TextureSource::BuiltIn.texture(name).unwrap();
-        assert_eq!((texture.width(), texture.height()), (512, 512), "{name}");
-    }
-    assert_eq!(TextureSource::BuiltIn.cubemap("cube").unwrap().size(), 512);
 }

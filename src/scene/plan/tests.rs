@@ -1,0 +1,113 @@
+//! Tests of the plan.
+
+use super::*;
+use crate::scene::{Overrides, load_text};
+
+const TWO_BALLS: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 5, "num_height_points": 5,
+        "thickness": 0.01, "orientation": 0, "damping": 0.2, "density": 150, "ks": 5000,
+        "enable_structural": true, "enable_shearing": false, "enable_bending": true},
+        "sphere": [{"origin": [0, 0, 0], "radius": 1, "friction": 0}, {"origin": [3, 0, 0], "radius": 1, "friction": 0}]}"#;
+
+fn plan(text: &str, sets: &[&str]) -> Plan {
+    let sets = sets.iter().map(ToString::to_string).collect();
+    Plan::of(&load_text("x.json", text, &Overrides { patches: vec![], sets }).unwrap().scene)
+}
+
+fn line<'a>(plan: &'a Plan, name: &str) -> &'a Item {
+    plan.items.iter().find(|item| item.name == name).unwrap()
+}
+
+#[test]
+fn every_decision_has_one_line_with_its_reason() {
+    let lines: Vec<String> = plan(TWO_BALLS, &["sphere.1.material.shader=texture"]).lines().collect();
+    let expected = "\
+structural springs: needed: cloth.enable_structural is true
+shearing springs: left out: cloth.enable_shearing is false
+bending springs: needed: cloth.enable_bending is true
+self-collision: needed: cloth.thickness is 0.01 m
+collision with planes: left out: the scene has no plane
+collision with spheres: needed: the scene has 2 spheres
+stretch limit: needed: sim.stretch_limit is 0.1
+cloth normals: needed: read by the phong shader
+cloth tangents: left out: not read by the phong shader
+cloth texture coordinates: left out: not read by the phong shader
+cloth texture: left out: not read by the phong shader
+cloth height map: left out: not read by the phong shader
+cloth environment: left out: not read by the phong shader
+sphere.0 normals: needed: read by the phong shader
+sphere.0 tangents: left out: not read by the phong shader
+sphere.0 texture coordinates: left out: not read by the phong shader
+sphere.0 texture: left out: not read by the phong shader
+sphere.0 height map: left out: not read by the phong shader
+sphere.0 environment: left out: not read by the phong shader
+sphere.1 normals: left out: not read by the texture shader
+sphere.1 tangents: left out: not read by the texture shader
+sphere.1 texture coordinates: needed: read by the texture shader
+sphere.1 texture: needed: read by the texture shader
+sphere.1 height map: left out: not read by the texture shader
+sphere.1 environment: left out: not read by the texture shader
+texture texture_1: needed: read by sphere.1
+cube maps: left out: no shader reads one";
+    assert_eq!(lines.join("\n"), expected);
+}
+
+#[test]
+fn phases_are_left_out_when_nothing_needs_them() {
+    let all = plan(TWO_BALLS, &[]);
+    assert!(all.structural && !all.shearing && all.bending);
+    assert!(all.self_collision && !all.planes && all.spheres && all.stretch_limit);
+
+    let thin = plan(TWO_BALLS, &["cloth.thickness=0"]);
+    assert!(!thin.self_collision);
+    assert_eq!(line(&thin, "self-collision").reason, "cloth.thickness is 0");
+    let off = plan(TWO_BALLS, &["sim.self_collision=off"]);
+    assert!(!off.self_collision);
+    assert_eq!(line(&off, "self-collision").reason, "sim.self_collision is off");
+
+    assert!(!plan(TWO_BALLS, &["sim.stretch_limit=null"]).stretch_limit);
+    let loose = plan(TWO_BALLS, &["cloth.enable_structural=false", "cloth.enable_bending=false"]);
+    assert!(!loose.stretch_limit);
+    assert_eq!(line(&loose, "stretch limit").reason, "there are no springs");
+}
+
+#[test]
+fn without_a_cloth_nothing_is_simulated() {
+    let text = r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}}"#;
+    let plan = plan(text, &[]);
+    assert!(!plan.structural && !plan.shearing && !plan.bending && !plan.stretch_limit);
+    assert!(!plan.self_collision && !plan.planes && !plan.spheres);
+    assert_eq!(line(&plan, "collision with spheres").reason, "the scene has no cloth");
+    assert_eq!(plan.objects.len(), 1);
+    assert_eq!(plan.objects[0].name, "sphere");
+}
+
+#[test]
+fn every_shader_reads_what_its_formula_names() {
+    // normal, tangent, uv, texture, height map, environment
+    let expected = [
+        ("wireframe", "------"),
+        ("normal", "n-----"),
+        ("diffuse", "n-----"),
+        ("phong", "n-----"),
+        ("texture", "--ux--"),
+        ("bump", "ntu-h-"),
+        ("displacement", "ntu-h-"),
+        ("mirror", "n----e"),
+        ("custom", "ntuxhe"),
+    ];
+    let found = Shader::NAMES.iter().map(|&(name, shader)| {
+        let letters = "ntuxhe".chars().zip(Needs::of(shader).named());
+        (name, letters.map(|(letter, (_, needed))| if needed { letter } else { '-' }).collect::<String>())
+    });
+    assert!(found.eq(expected.map(|(name, needs)| (name, needs.to_owned()))));
+}
+
+#[test]
+fn an_image_is_named_once() {
+    let sets = ["material.shader=custom", "material.height_map=texture_1", "sphere.1.material.texture=wood"];
+    let plan = plan(TWO_BALLS, &sets);
+    assert_eq!(plan.textures, ["texture_1", "wood"]);
+    assert_eq!(plan.environments, ["cube"]);
+    assert_eq!(line(&plan, "texture texture_1").reason, "read by cloth, sphere.0, sphere.1");
+    assert_eq!(line(&plan, "texture wood").reason, "read by sphere.1");
+}

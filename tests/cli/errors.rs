@@ -1,0 +1,313 @@
+//! Every failure has its exit code, says what is wrong, and leaves no file.
+
+use std::fs;
+
+use crate::scratch::{Run, Scratch};
+
+/// Runs the program plainly and with `--json`; both must fail with `code`, print nothing, create
+/// no file, and say an error of `kind`. Returns the error's JSON and the plain message.
+fn fails(scratch: &Scratch, arguments: &[&str], code: i32, kind: &str) -> (serde_json::Value, String) {
+    let before = scratch.names();
+    let plain = scratch.run(arguments);
+    assert_eq!(plain.code, Some(code), "{arguments:?}: {}", plain.stderr);
+    assert!(plain.stderr.starts_with("error"), "{arguments:?}: {}", plain.stderr);
+    assert!(!plain.stderr.contains("panicked"), "{arguments:?}: {}", plain.stderr);
+    let json = scratch.run(&[arguments, &["--json"]].concat());
+    assert_eq!(json.code, Some(code), "{arguments:?}: {}", json.stderr);
+    let error = json.error();
+    assert_eq!(error["exit_code"], code, "{error}");
+    assert_eq!(error["kind"], kind, "{error}");
+    assert!(error["error"].as_str().is_some_and(|message| !message.is_empty()), "{error}");
+    for Run { stdout, .. } in [&plain, &json] {
+        assert_eq!(stdout, b"", "{arguments:?} printed something");
+    }
+    assert_eq!(scratch.names(), before, "{arguments:?} left a file");
+    (error, plain.stderr)
+}
+
+#[test]
+fn a_wrong_command_line_is_2() {
+    let scratch = Scratch::new();
+    let scene = "small.json";
+    for arguments in [
+        &["frobnicate"][..],
+        &["render"],
+        &["render", scene, "--nonsense"],
+        &["render", scene, "out.png", "--threads", "0"],
+        &["render", scene, "out.png", "--threads", "1025"],
+        &["render", scene, "out.png", "--threads", "two"],
+        &["render", scene, "out.png", "--time", "1", "--frame", "1"],
+        &["render", scene, "out.png", "--time", "-1"],
+        &["render", scene, "out.png", "--time", "nan"],
+        &["render", scene, "out.png", "--time", "1e999"],
+        &["render", scene, "out.png", "--frame", "1.5"],
+        &["render", scene, "out.png", "--shader", "fong"],
+        &["render", scene, "out.png", "--size", "0x1"],
+        &["render", scene, "out.png", "--size", "20000x1"],
+        &["render", scene, "out.png", "--samples", "3"],
+        &["render", scene, "out.png", "-a", "1"],
+        &["render", scene, "out.png", "-o", "2"],
+        &["render", scene, "out.png", "--springs", "elastic"],
+        &["render", scene, "out.png", "--bench", "1"],
+        &["render", scene, "--bench", "0"],
+        &["render", scene, "out.jpg"],
+        &["render", scene, "small.json"],
+        &["render", scene, "out.png", "--depth", "out.png"],
+        &["render", scene, "out.png", "--set", "cloth.ks"],
+        &["render", scene, "-", "--stats"],
+        &["simulate", scene, "--positions", "small.json"],
+        &["simulate", scene, "--hash", "--bench"],
+        &["simulate", scene, "--frames", "1", "--time", "1"],
+        &["export", scene],
+        &["export", scene, "out.ply"],
+        &["compare", scene],
+        &["compare", scene, "."],
+        &["compare", "a", "b", "--budget", "0:1"],
+        &["check"],
+        &["info", scene, "-q", "-v"],
+        &["info", scene, "--color", "red"],
+    ] {
+        fails(&scratch, arguments, 2, "usage");
+    }
+    assert_eq!(scratch.read(scene), crate::scratch::SMALL.as_bytes(), "the scene is untouched");
+}
+
+#[test]
+fn bytes_and_json_do_not_share_standard_output() {
+    let scratch = Scratch::new();
+    for arguments in
+        [&["render", "small.json", "-", "--json"], &["simulate", "small.json", "--positions=-", "--json"]]
+    {
+        let run = scratch.run(arguments);
+        assert_eq!((run.code, run.stdout.len()), (Some(2), 0), "{arguments:?}");
+    }
+}
+
+#[test]
+fn no_command_is_2_and_shows_the_help() {
+    let run = Scratch::new().run(&[]);
+    assert_eq!((run.code, run.stdout.len()), (Some(2), 0));
+    assert!(run.stderr.contains("Usage: drape"), "{}", run.stderr);
+}
+
+#[test]
+fn an_invalid_scene_is_3_and_names_every_place() {
+    let scratch = Scratch::new();
+    let broken =
+        crate::scratch::SMALL.replace("\"ks\"", "\"kss\"").replace("\"radius\": 0.2", "\"radius\": -1");
+    fs::write(scratch.path("broken.json"), broken).unwrap();
+    fs::write(scratch.path("empty.json"), "").unwrap();
+    for command in [&["render"][..], &["simulate"], &["info"], &["export"]] {
+        let out: &[&str] = if command == ["export"] { &["out.obj"] } else { &[] };
+        let arguments = [command, &["broken.json"], out].concat();
+        let (error, plain) = fails(&scratch, &arguments, 3, "scene");
+        let diagnostics = error["diagnostics"].as_array().unwrap();
+        let keys: Vec<_> = diagnostics.iter().map(|d| d["key"].as_str().unwrap()).collect();
+        assert!(keys.contains(&"cloth.kss") && keys.contains(&"sphere.radius"), "{keys:?}");
+        for diagnostic in diagnostics {
+            assert_eq!(diagnostic["file"], "broken.json");
+            assert!(diagnostic["line"].as_u64() > Some(0) && diagnostic["column"].as_u64() > Some(0));
+        }
+        assert!(plain.contains("broken.json:3:") && plain.contains('^'), "{plain}");
+    }
+    fails(&scratch, &["simulate", "empty.json"], 3, "scene");
+    fails(&scratch, &["simulate", "small.json", "--set", "cloth.ks=true"], 3, "scene");
+}
+
+#[test]
+fn a_missing_texture_is_3_before_anything_is_simulated() {
+    let scratch = Scratch::new();
+    // The simulation would be refused as unstable.
+    let stiff = "cloth.ks=1e12";
+    let arguments =
+        ["render", "small.json", "out.png", "--shader", "texture", "--textures", "no", "--set", stiff];
+    fails(&scratch, &arguments, 3, "scene");
+}
+
+#[test]
+fn nothing_to_do_is_4() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("bare.json"), "{}").unwrap();
+    fails(&scratch, &["export", "bare.json", "out.obj"], 4, "nothing");
+    fs::create_dir(scratch.path("a")).unwrap();
+    fs::create_dir(scratch.path("b")).unwrap();
+    fails(&scratch, &["compare", "a", "b"], 4, "nothing");
+}
+
+#[test]
+fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
+    let scratch = Scratch::new();
+    let stiff = ["--set", "cloth.ks=1e12"];
+    for command in [
+        &["render", "small.json", "out.png"][..],
+        &["simulate", "small.json", "--positions", "out"],
+        &["export", "small.json", "out.obj"],
+    ] {
+        let (error, _) = fails(&scratch, &[command, &stiff].concat(), 5, "unstable");
+        assert!(error["error"].as_str().unwrap().contains("before the first step: dt·ω = "), "{error}");
+        assert!(
+            error["help"].as_str().unwrap().starts_with("raise steps_per_frame from 30 to at least "),
+            "{error}"
+        );
+        // The stretch limit would hold the points together.
+        let allowed =
+            [command, &stiff, &["--set", "sim.stretch_limit=null", "--allow-unstable", "-q"]].concat();
+        let (error, _) = fails(&scratch, &allowed, 5, "unstable");
+        assert!(error["error"].as_str().unwrap().contains("at step"), "{error}");
+    }
+    scratch.succeed(&["simulate", "small.json", "--frames", "0", "--set", "cloth.ks=1e12"]);
+}
+
+/// A cloth a little over the bound at rest: what the message asks for is let run, with the warning
+/// that it is only stable at rest; what the worst case needs is let run without.
+#[test]
+fn the_advice_before_the_first_step_holds() {
+    let scratch = Scratch::new();
+    let run = |sets: [&str; 2]| {
+        scratch.run(&["simulate", "small.json", "--frames", "1", "--set", sets[0], "--set", sets[1]])
+    };
+    let refused = run(["cloth.ks=4e7", "sim.steps_per_frame=30"]);
+    assert_eq!(refused.code, Some(5));
+    let number = |text: &str| -> f64 {
+        let rest = refused.stderr.split(text).nth(1).expect(text);
+        rest.split([',', ';', '\n']).next().unwrap().trim().parse().unwrap()
+    };
+    let (steps, softer) = (number("to at least ") as u32, number("lower ks below "));
+    for (ks, steps, code, warns) in [
+        (4e7, steps - 1, 5, false),
+        (4e7, steps, 0, true),
+        (softer, 30, 0, true),
+        (1.002 * softer, 30, 5, false),
+        (softer / 3.0, 30, 0, false),
+    ] {
+        let ran = run([&format!("cloth.ks={ks}"), &format!("sim.steps_per_frame={steps}")]);
+        assert_eq!(ran.code, Some(code), "ks {ks}, {steps} steps: {}", ran.stderr);
+        assert_eq!(
+            ran.stderr.contains("may become unstable"),
+            warns,
+            "ks {ks}, {steps} steps: {}",
+            ran.stderr
+        );
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_6() {
+    let scratch = Scratch::new();
+    for arguments in [
+        &["render", "no.json"][..],
+        &["simulate", "no.json"],
+        &["info", "no.json"],
+        &["export", "no.json", "out.obj"],
+        &["simulate", "small.json", "--patch", "no.json"],
+        &["compare", "no.png", "no.png"],
+        &["compare", "small.json", "small.json"],
+    ] {
+        let (error, _) = fails(&scratch, arguments, 6, "io");
+        let message = error["error"].as_str().unwrap();
+        assert!(message.contains("no.") || message.contains("small.json"), "{message}");
+    }
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_6_before_anything_is_simulated() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("folder")).unwrap();
+    // The simulation would be refused as unstable.
+    let stiff = ["--set", "cloth.ks=1e12"];
+    for place in ["no/out", "folder", "new/", "small.json/out"] {
+        for command in [
+            &["render", "small.json", "out.png", "--depth", place][..],
+            &["render", "small.json", "out.png", "--ids", place],
+            &["simulate", "small.json", "--positions", place],
+            &["export", "small.json", place],
+        ] {
+            let (error, _) = fails(&scratch, &[command, &stiff].concat(), 6, "io");
+            assert!(error["error"].as_str().unwrap().contains(place), "{error}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_may_not_be_written_is_6() {
+    use std::os::unix::fs::PermissionsExt;
+    let scratch = Scratch::new();
+    // No user may create files here.
+    fails(&scratch, &["simulate", "small.json", "--positions", "/proc/out"], 6, "io");
+    let folder = scratch.path("locked");
+    fs::create_dir(&folder).unwrap();
+    fs::set_permissions(&folder, fs::Permissions::from_mode(0o500)).unwrap();
+    // The administrator may write anywhere.
+    if fs::write(folder.join("probe"), "").is_err() {
+        fails(&scratch, &["simulate", "small.json", "--positions", "locked/out"], 6, "io");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_6() {
+    let scratch = Scratch::new();
+    fails(&scratch, &["render", "small.json", "/dev/full", "--size", "8x8", "-q"], 6, "io");
+    fails(&scratch, &["simulate", "small.json", "--positions", "/dev/full", "--frames", "1"], 6, "io");
+    fails(&scratch, &["export", "small.json", "/dev/full", "--frame", "1"], 6, "io");
+    let before = scratch.names();
+    for arguments in [
+        &["render", "small.json", "-", "--size", "8x8", "-q"][..],
+        &["simulate", "small.json", "--positions", "-", "--frames", "1"],
+        &["simulate", "small.json", "--hash"],
+        &["export", "small.json", "-"],
+        &["info", "small.json"],
+        &["check", "small.json"],
+        &["--help"],
+        &["--version"],
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let run: Run = scratch.command(arguments).stdout(full).output().unwrap().into();
+        assert_eq!(run.code, Some(6), "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains("standard output"), "{arguments:?}: {}", run.stderr);
+    }
+    assert_eq!(scratch.names(), before);
+}
+
+#[test]
+fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("a.json"), r#"{"clot": {}, "sim": {"fps": 0}}"#).unwrap();
+    fs::write(scratch.path("b.json"), r#"{"sim": {"fps": "x"}}"#).unwrap();
+    assert_eq!(scratch.run(&["check", "small.json"]).code, Some(0));
+    let run = scratch.run(&["check", "a.json", "no.json", "small.json", "b.json", "--json"]);
+    assert_eq!((run.code, &run.error()["kind"]), (Some(3), &"scene".into()));
+    let object = run.object();
+    let files = object["files"].as_array().unwrap();
+    let errors: Vec<_> = files.iter().map(|file| file["errors"].as_array().unwrap().len()).collect();
+    assert_eq!(errors, [2, 0, 0, 1]);
+    assert!(files[1]["failure"].as_str().unwrap().contains("no.json"));
+    let plain = scratch.run(&["check", "a.json", "b.json"]);
+    assert_eq!(plain.code, Some(3));
+    let text = String::from_utf8(plain.stdout).unwrap();
+    assert!(text.contains("a.json:1:2") && text.contains("b.json:1:17"), "{text}");
+    assert_eq!(scratch.run(&["check", "a.json", "no.json"]).code, Some(3));
+    assert_eq!(scratch.run(&["check", "no.json", "a.json"]).code, Some(3));
+    assert_eq!(scratch.run(&["check", "no.json", "small.json"]).code, Some(6));
+    assert_eq!(scratch.run(&["check", "small.json", "--set", "cloth.ks=-1"]).code, Some(3));
+}
+
+#[test]
+fn a_picture_does_not_replace_a_texture_that_it_may_read() {
+    let scratch = Scratch::new();
+    fs::create_dir_all(scratch.path("set/cube")).expect("folders");
+    for texture in ["set/texture_1.png", "set/cube/posx.png"] {
+        fs::write(scratch.path(texture), "not looked into").expect("a file");
+        fails(&scratch, &["render", "small.json", texture, "--textures", "set"], 2, "usage");
+        assert_eq!(scratch.read(texture), b"not looked into");
+    }
+}
+
+#[test]
+fn a_camera_in_its_target_is_3() {
+    let scratch = Scratch::new();
+    let far = ["--set", "camera.target=[0,0,1e15]", "--set", "camera.distance=0.01"];
+    let (error, _) = fails(&scratch, &[&["render", "small.json", "out.png"], &far[..]].concat(), 3, "scene");
+    assert!(error["help"].as_str().is_some_and(|help| help.contains("camera.distance")), "{error}");
+}

@@ -1,0 +1,66 @@
+//! Files are whole or absent, and links, devices and odd names are handled as a user expects.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+
+use crate::scratch::{SMALL, Scratch};
+
+#[test]
+fn an_old_file_is_replaced_as_a_whole() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("p"), vec![7; 10_000]).unwrap();
+    scratch.succeed(&["simulate", "small.json", "--frames", "0", "--positions", "p"]);
+    assert_eq!(scratch.read("p").len(), 25 * 24);
+    assert_eq!(scratch.names(), ["p", "small.json"]);
+}
+
+#[test]
+fn a_failure_keeps_the_old_file() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("p"), "old").unwrap();
+    let run = scratch.run(&["simulate", "small.json", "--positions", "p", "--set", "cloth.ks=1e12"]);
+    assert_eq!(run.code, Some(5));
+    assert_eq!(scratch.read("p"), b"old");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_and_its_file_is_written() {
+    let scratch = Scratch::new();
+    std::os::unix::fs::symlink("real", scratch.path("link")).unwrap();
+    scratch.succeed(&["simulate", "small.json", "--frames", "0", "--positions", "link"]);
+    assert_eq!(scratch.read("real").len(), 600);
+    assert!(fs::symlink_metadata(scratch.path("link")).unwrap().is_symlink());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_that_is_not_text_is_a_name() {
+    use std::os::unix::ffi::OsStrExt;
+    let scratch = Scratch::new();
+    let name = std::ffi::OsStr::from_bytes(b"caf\xe9.json");
+    fs::write(scratch.path("").join(name), SMALL).unwrap();
+    let mut command = scratch.command(&["render", "--size", "8x8", "--frame", "0"]);
+    assert!(command.arg(name).status().unwrap().success());
+    let picture = std::ffi::OsStr::from_bytes(b"caf\xe9.png");
+    assert!(scratch.path("").join(picture).exists(), "{:?}", scratch.names());
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    let scratch = Scratch::new();
+    // Without the reader the program would print for minutes.
+    let mut child = scratch
+        .command(&["simulate", "small.json", "--frames", "100000000", "--hash"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    assert!(line.starts_with("0 "), "{line}");
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}

@@ -1,0 +1,9 @@
+//! The command line keeps its contract: exit codes, clean standard output, errors that programs
+//! can read, and no file left behind by a failure.
+
+mod errors;
+mod files;
+mod results;
+mod scratch;
+mod signals;
+mod threads;

@@ -1,0 +1,310 @@
+//! Standard output carries the result and nothing else, and the result is right.
+
+use std::fs;
+
+use crate::scratch::{Scratch, scene};
+
+#[test]
+fn help_and_version_are_results() {
+    let scratch = Scratch::new();
+    for arguments in [&["--help"][..], &["-h"], &["render", "--help"], &["help", "render"], &["--version"]] {
+        let run = scratch.run(arguments);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+        let text = String::from_utf8(run.stdout).unwrap();
+        assert!(text.contains("Usage: drape") || text == "drape 0.1.0\n", "{text}");
+        assert!(!text.contains('\x1b'), "no colour where there is no terminal");
+    }
+}
+
+#[test]
+fn render_prints_nothing_unless_asked() {
+    let scratch = Scratch::new();
+    let quiet = ["render", "small.json", "--size", "40x30", "--frame", "3", "-q"];
+    let run = scratch.run(&quiet);
+    assert_eq!((run.code, run.stdout.len(), run.stderr.as_str()), (Some(0), 0, ""));
+    assert_eq!(scratch.names(), ["small.json", "small.png"], "named after the scene");
+    let summary = scratch.json(&[&quiet[..], &["--json"]].concat());
+    assert_eq!(
+        (&summary["width"], &summary["height"], &summary["frame"]),
+        (&40.into(), &30.into(), &3.into())
+    );
+    assert_eq!(summary["stats"]["triangles"], 32 + 2 * 40 * 40);
+    let stats = String::from_utf8(scratch.succeed(&[&quiet[..], &["--stats"]].concat())).unwrap();
+    assert!(stats.starts_with("vertices    1706\ntriangles   3232\n"), "{stats}");
+}
+
+#[test]
+fn pictures_to_standard_output_are_those_of_the_file() {
+    let scratch = Scratch::new();
+    let bytes = scratch.succeed(&["render", "small.json", "-", "--size", "40x30", "--frame", "3"]);
+    scratch.succeed(&["render", "small.json", "out.png", "--size", "40x30", "--frame", "3"]);
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n"));
+    assert_eq!(bytes, scratch.read("out.png"));
+    assert_eq!(scratch.names(), ["out.png", "small.json"]);
+}
+
+#[test]
+fn time_and_frame_name_the_same_moment() {
+    let scratch = Scratch::new();
+    let hash = |arguments: &[&str]| {
+        let run = scratch.json(&[&["simulate", "small.json", "--json"], arguments].concat());
+        (run["frames"].as_u64().unwrap(), run["state_hash"].as_str().unwrap().to_owned())
+    };
+    let frames = hash(&["--frames", "45"]);
+    assert_eq!(frames.0, 45);
+    assert_eq!(hash(&["--time", "0.5"]), frames);
+    assert_eq!(hash(&["--time", "0.5055"]), frames, "rounded to 45.495 -> 45");
+    assert_eq!(hash(&["--set", "render.time=0.5"]), frames);
+    assert_ne!(hash(&["--frames", "46"]).1, frames.1);
+    assert_eq!(hash(&["--frames", "0"]).0, 0);
+}
+
+#[test]
+fn depth_and_ids_have_a_number_a_pixel() {
+    let scratch = Scratch::new();
+    let size = ["--size", "40x30", "--frame", "0"];
+    scratch.succeed(&[&["render", "small.json", "--depth", "d", "--ids", "i"], &size[..]].concat());
+    let words = |name| -> Vec<[u8; 4]> {
+        scratch.read(name).chunks(4).map(|chunk| chunk.try_into().unwrap()).collect()
+    };
+    let depths: Vec<f32> = words("d").into_iter().map(f32::from_le_bytes).collect();
+    let ids: Vec<u32> = words("i").into_iter().map(u32::from_le_bytes).collect();
+    assert_eq!((depths.len(), ids.len()), (1200, 1200));
+    for (depth, id) in depths.iter().zip(&ids) {
+        assert_eq!(*id == 0, *depth == 1.0, "background is far and has no id");
+        assert!((0.0..=1.0).contains(depth));
+    }
+    let objects: std::collections::BTreeSet<u32> = ids.iter().map(|id| id >> 24).collect();
+    assert!(objects.contains(&0) && objects.contains(&2), "background and ball are seen: {objects:?}");
+}
+
+#[test]
+fn changes_from_the_command_line_reach_the_picture() {
+    let scratch = Scratch::new();
+    let picture = |arguments: &[&str]| {
+        scratch
+            .succeed(&[&["render", "small.json", "-", "--size", "64x48", "--frame", "5"], arguments].concat())
+    };
+    let plain = picture(&[]);
+    let mut pictures = vec![plain.clone()];
+    for change in [
+        &["--shader", "normal"][..],
+        &["--shader", "wireframe"],
+        &["--shader", "wireframe", "--springs", "bending"],
+        &["--samples", "4"],
+        &["-a", "4"],
+        &["-o", "4"],
+        &["--set", "camera.polar=60"],
+    ] {
+        let other = picture(change);
+        assert!(!pictures.contains(&other), "{change:?} changes nothing of its own");
+        pictures.push(other);
+    }
+    assert_eq!(
+        picture(&["--shader", "phong", "-a", "40", "-o", "40", "--samples", "1"]),
+        plain,
+        "the defaults"
+    );
+    fs::write(scratch.path("patch.json"), r#"{"camera": {"polar": 60}}"#).unwrap();
+    assert_eq!(picture(&["--patch", "patch.json"]), picture(&["--set", "camera.polar=60"]));
+}
+
+#[test]
+fn positions_are_the_points_row_by_row() {
+    let scratch = Scratch::new();
+    scratch.succeed(&["simulate", "small.json", "--frames", "0", "--positions", "p"]);
+    let numbers: Vec<f64> =
+        scratch.read("p").chunks(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
+    let expected: Vec<f64> =
+        (0..25).flat_map(|p| [f64::from(p % 5) * 0.25, 1.0, f64::from(p / 5) * 0.25]).collect();
+    assert_eq!(numbers, expected);
+    let stdout = scratch.succeed(&["simulate", "small.json", "--frames", "0", "--positions", "-"]);
+    assert_eq!(stdout, scratch.read("p"));
+}
+
+#[test]
+fn hashes_are_a_line_a_frame_and_the_last_is_the_summary_s() {
+    let scratch = Scratch::new();
+    let text =
+        String::from_utf8(scratch.succeed(&["simulate", "small.json", "--frames", "4", "--hash"])).unwrap();
+    let lines: Vec<_> = text.lines().map(|line| line.split_once(' ').unwrap()).collect();
+    let frames: Vec<_> = lines.iter().map(|(frame, _)| *frame).collect();
+    assert_eq!(frames, ["0", "1", "2", "3", "4"]);
+    let summary = scratch.json(&["simulate", "small.json", "--frames", "4", "--hash", "--json"]);
+    let hashes: Vec<_> = lines.iter().map(|(_, hash)| *hash).collect();
+    assert_eq!(summary["hashes"], serde_json::json!(hashes));
+    assert_eq!(summary["state_hash"], hashes[4]);
+    let distinct: std::collections::BTreeSet<_> = hashes.iter().collect();
+    assert_eq!(distinct.len(), 5);
+}
+
+#[test]
+fn export_is_the_simulated_mesh() {
+    let scratch = Scratch::new();
+    scratch.succeed(&["export", "small.json", "out.obj", "--frame", "7"]);
+    scratch.succeed(&["simulate", "small.json", "--frames", "7", "--positions", "p"]);
+    let text = String::from_utf8(scratch.read("out.obj")).unwrap();
+    let rows = |key: &str| -> Vec<Vec<f64>> {
+        let rows = text.lines().filter_map(|line| line.strip_prefix(key));
+        rows.map(|row| row.split(' ').map(|n| n.parse().unwrap()).collect()).collect()
+    };
+    let bytes: Vec<u8> = rows("v ").concat().into_iter().flat_map(f64::to_le_bytes).collect();
+    assert_eq!(bytes, scratch.read("p"), "the positions to the last bit");
+    assert_eq!((rows("vt ").len(), rows("vn ").len()), (25, 25));
+    assert_eq!((rows("vt ")[0].clone(), rows("vt ")[24].clone()), (vec![0.0, 0.0], vec![1.0, 1.0]));
+    for normal in rows("vn ") {
+        assert!((normal.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-6, "{normal:?}");
+    }
+    assert_eq!(text.lines().filter(|line| line.starts_with("f ")).count(), 32);
+    assert!(text.contains("\nf 1/1/1 6/6/6 2/2/2\n"), "the first cell's (A, C, B)");
+}
+
+#[test]
+fn export_tells_programs_what_it_wrote() {
+    let scratch = Scratch::new();
+    let summary = scratch.json(&["export", "small.json", "out.obj", "--frame", "3", "--json"]);
+    assert_eq!(summary["mesh"], "out.obj");
+    assert_eq!(
+        (&summary["frame"], &summary["points"], &summary["triangles"]),
+        (&3.into(), &25.into(), &32.into())
+    );
+}
+
+#[test]
+fn info_counts_what_a_simulation_then_uses() {
+    let scratch = Scratch::new();
+    for name in ["pinned2", "pinned4", "sphere", "plane", "selfCollision"] {
+        let path = scene(&format!("{name}.json"));
+        let info = scratch.json(&["info", &path, "--json"]);
+        let run = scratch.json(&["simulate", &path, "--frames", "1", "--json"]);
+        let kinds = ["structural", "shearing", "bending"].map(|kind| info["cloth"][kind].as_u64().unwrap());
+        assert_eq!(kinds, [4900, 4802, 4800]);
+        assert_eq!(run["springs"], 14_502);
+        assert_eq!(run["counters"]["springs_evaluated"], 30 * 14_502, "30 steps a frame");
+        assert_eq!(info["cloth"]["stable"], "stable");
+        assert_eq!(info["frames"], 180);
+        assert!(info["needs"].as_array().unwrap().iter().any(|item| item["needed"] == false));
+    }
+    let odd = [
+        "--set",
+        "cloth.num_width_points=3",
+        "--set",
+        "cloth.num_height_points=8",
+        "--set",
+        "cloth.pinned=[]",
+        "--set",
+        "cloth.enable_shearing=false",
+        "--json",
+    ];
+    let info = scratch.json(&[&["info", "small.json"], &odd[..]].concat());
+    let run = scratch.json(&[&["simulate", "small.json", "--frames", "1"], &odd[..]].concat());
+    assert_eq!((&info["cloth"]["structural"], &info["cloth"]["bending"]), (&37.into(), &26.into()));
+    assert_eq!(info["cloth"]["shearing"], 0);
+    assert_eq!(run["counters"]["springs_evaluated"], 30 * 63);
+    let text = String::from_utf8(scratch.succeed(&["info", "small.json"])).unwrap();
+    assert!(text.contains("5 x 5 = 25 points, pinned 2") && text.contains("left out  "), "{text}");
+}
+
+#[test]
+fn benchmarks_print_json_and_write_nothing() {
+    let scratch = Scratch::new();
+    let render = scratch.run(&["render", "small.json", "--size", "40x30", "--frame", "1", "--bench", "3"]);
+    let object = render.object();
+    assert!(
+        object["ms_min"].as_f64() > Some(0.0) && object["ms_median"].as_f64() >= object["ms_min"].as_f64()
+    );
+    assert!(object["threads"].as_u64() >= Some(1) && object["triangles"] == 3232);
+    assert!(object["fragments"].as_u64() > Some(0) && object["stages"]["raster"].as_f64() > Some(0.0));
+    let simulate = scratch.run(&["simulate", "small.json", "--frames", "2", "--bench"]).object();
+    assert!(simulate["ns_per_substep"].as_f64() > Some(0.0));
+    assert_eq!(
+        (&simulate["substeps"], &simulate["points"], &simulate["springs"]),
+        (&60.into(), &25.into(), &102.into())
+    );
+    assert!(simulate["stages"]["forces"].as_u64() > Some(0));
+    assert_eq!(scratch.names(), ["small.json"]);
+}
+
+#[test]
+fn compare_tells_equal_different_and_missing_pictures_apart() {
+    let scratch = Scratch::new();
+    for folder in ["a", "b"] {
+        fs::create_dir(scratch.path(folder)).unwrap();
+    }
+    let render = |out: &str, polar: &str| {
+        let view = format!("camera.polar={polar}");
+        scratch.succeed(&["render", "small.json", out, "--size", "40x30", "--frame", "1", "--set", &view])
+    };
+    for (out, polar) in [("a/x.png", "90"), ("b/x.png", "90"), ("a/y.png", "90"), ("b/y.png", "60")] {
+        render(out, polar);
+    }
+    let same = scratch.json(&["compare", "a/x.png", "b/x.png", "--json"]);
+    assert_eq!((&same["differing"], &same["max"], &same["pixels"]), (&0.into(), &0.into(), &1200.into()));
+    let run =
+        scratch.run(&["compare", "a/y.png", "b/y.png", "--json", "--diff", "d.png", "--html", "d.html"]);
+    assert_eq!((run.code, &run.error()["kind"]), (Some(1), &"difference".into()));
+    let found = run.object();
+    let differing = found["differing"].as_u64().unwrap();
+    let counted: u64 = found["histogram"].as_object().unwrap().values().map(|n| n.as_u64().unwrap()).sum();
+    assert!(differing > 0 && counted == differing && found["rmse"].as_f64() > Some(0.0));
+    assert!(scratch.read("d.png").starts_with(b"\x89PNG"));
+    assert_eq!(String::from_utf8(scratch.read("d.html")).unwrap().matches("<img ").count(), 3);
+    let budget = format!("255:{differing}");
+    assert_eq!(scratch.run(&["compare", "a/y.png", "b/y.png", "--budget", &budget]).code, Some(0));
+    let less = format!("255:{}", differing - 1);
+    assert_eq!(scratch.run(&["compare", "a/y.png", "b/y.png", "--budget", &less]).code, Some(1));
+
+    assert_eq!(scratch.run(&["compare", "a", "b"]).code, Some(1));
+    assert_eq!(scratch.run(&["compare", "a", "a"]).code, Some(0));
+    render("b/y.png", "90");
+    assert_eq!(scratch.run(&["compare", "a", "b"]).code, Some(0));
+    fs::create_dir(scratch.path("b/inside")).unwrap();
+    render("b/inside/z.png", "90");
+    let extra = scratch.run(&["compare", "a", "b", "--json"]);
+    assert_eq!(
+        (extra.code, &extra.error()["kind"]),
+        (Some(4), &"nothing".into()),
+        "nothing is expected of it"
+    );
+    assert_eq!(extra.object()["only_in_b"], serde_json::json!(["inside/z.png"]));
+    assert_eq!(scratch.run(&["compare", "b", "a"]).code, Some(1), "a picture is gone");
+}
+
+#[test]
+fn messages_are_coloured_only_when_asked_and_silent_when_asked() {
+    let scratch = Scratch::new();
+    let message = |arguments: &[&str]| scratch.run(&[&["info", "no.json"], arguments].concat()).stderr;
+    assert!(!message(&[]).contains('\x1b'));
+    assert!(message(&["--color", "always"]).starts_with("\x1b[1;31merror\x1b[0m: "));
+    assert!(!message(&["--color", "never"]).contains('\x1b'));
+    let remarks = |arguments: &[&str]| {
+        scratch.run(&[&["simulate", "small.json", "--frames", "1"], arguments].concat()).stderr
+    };
+    assert!(remarks(&["-v"]).starts_with("simulated 1 frames in "));
+    assert_eq!((remarks(&[]).as_str(), remarks(&["-q"]).as_str()), ("", ""));
+}
+
+#[test]
+fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
+    let scratch = Scratch::new();
+    let arguments = ["simulate", "small.json", "--frames", "40", "--csv", "out.csv", "--json"];
+    let summary = scratch.json(&arguments);
+    let text = String::from_utf8(scratch.read("out.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    assert_eq!((names.len(), rows.len()), (15, 41), "frames 0 to 40");
+    let column = |name: &str| names.iter().position(|&n| n == name).unwrap();
+    for (frame, pair) in rows.windows(2).enumerate() {
+        let put_in: f64 = pair[1][column("by_gravity")..=column("by_stretch_limit")].iter().sum();
+        let change = pair[1][column("total")] - pair[0][column("total")];
+        assert!((put_in - change).abs() < 1e-8, "frame {}: {put_in} J, not {change} J", frame + 1);
+        assert!(pair[1][column("largest_speed")] > 0.0 && pair[1][column("smallest_distance")] > 0.1);
+        assert!((pair[1][column("time")] - (frame + 1) as f64 / 90.0).abs() < 1e-12);
+    }
+    assert!(rows.iter().any(|row| row[column("by_stretch_limit")] != 0.0), "the limit takes part");
+    let damping: f64 = rows.iter().map(|row| row[column("by_damping")]).sum();
+    assert!((summary["ledger"]["damping"].as_f64().unwrap() - damping).abs() < 1e-8 * damping.abs());
+    assert_eq!(summary["energy"]["kinetic"].as_f64().unwrap(), rows[40][column("kinetic")]);
+}

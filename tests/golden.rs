@@ -1,0 +1,228 @@
+//! Pictures stay what they are: every pixel, for every number of threads.
+//!
+//! A golden is replaced by `DRAPE_BLESS="reason" cargo test --release --test golden`, which fails
+//! after it has written; the next run compares. What differs is shown in `target/golden/`.
+
+mod goldens;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use drape::output::png::{self, Effort, Pixels};
+use goldens::files::{Goldens, check_size, save};
+use goldens::program::{Case, draw, repository};
+use rayon::prelude::*;
+
+/// Pictures kept as files: name, scene, arguments of `render`. At most 256 x 256 and 20 KiB.
+const PICTURES: &[Case] = &[
+    ("part5-phong-full", "sphere.json", "--patch scenes/look/draped.json --size 256x200"),
+    ("ball-texture", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader texture"),
+    (
+        "ball-bump",
+        "sphere.json",
+        "--patch scenes/look/ball.json --size 160x125 --shader bump --set material.normal_scaling=100",
+    ),
+    (
+        "ball-displacement",
+        "sphere.json",
+        "--patch scenes/look/ball.json --size 160x125 --shader displacement",
+    ),
+    ("ball-mirror", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader mirror"),
+    ("ball-custom", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader custom"),
+    ("ball-nearest", "sphere.json", NEAREST),
+    ("sphere-samples", "sphere.json", "--patch scenes/look/draped.json --time 1 --size 192x150 --samples 4"),
+    (
+        "sphere-custom",
+        "sphere.json",
+        "--patch scenes/look/draped.json --time 1 --size 160x125 --shader custom",
+    ),
+    (
+        "pinned2-wireframe",
+        "pinned2.json",
+        "--time 0.4 --size 256x200 --shader wireframe --springs structural --set camera.polar=60",
+    ),
+    ("pinned4-normal", "pinned4.json", "--time 0.5 --size 192x150 --shader normal --set camera.polar=60"),
+    ("plane-texture", "plane.json", "--time 1 --size 112x88 --shader texture --set camera.polar=50"),
+    (
+        "selfCollision-normal",
+        "selfCollision.json",
+        "--time 0.3 --size 192x150 --shader normal --set camera.azimuth=40",
+    ),
+];
+
+/// The grid of letters, looked up without weights.
+const NEAREST: &str = "--patch scenes/look/ball.json --size 160x125 --shader texture \
+    --set render.filter=nearest --set material.texture=texture_4";
+
+/// Pictures kept as a hash only, so of any size.
+const HASHES: &[Case] = &[
+    ("sphere", "sphere.json", ""),
+    ("sphere-mirror-8", "sphere.json", "--shader mirror --samples 8 --size 640x480"),
+    ("plane-displacement", "plane.json", "--shader displacement --set camera.polar=60"),
+    ("selfCollision", "selfCollision.json", "--set camera.polar=75 --set camera.azimuth=40"),
+];
+
+/// Numbers of threads that each picture is drawn with.
+const THREADS: [usize; 2] = [1, 3];
+
+fn goldens() -> Goldens {
+    Goldens {
+        folder: repository().join("golden"),
+        failures: output_folder(),
+        bless: std::env::var("DRAPE_BLESS").ok(),
+        unattended: std::env::var_os("CI").is_some(),
+    }
+}
+
+/// `target/golden`
+fn output_folder() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("golden")
+}
+
+/// Draws every case with every number of threads; all failures are told at once.
+fn check_all(cases: &[Case], check: impl Fn(&str, &Pixels) -> Result<(), String>) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let drawn: Vec<_> = cases
+        .par_iter()
+        .flat_map(|&case| THREADS.par_iter().map(move |&threads| (case, threads)))
+        .map(|(case, threads)| {
+            let file = folder.path().join(format!("{}-{threads}.png", case.0));
+            (case.0, threads, draw(case, threads, &file))
+        })
+        .collect();
+    let failures: Vec<_> = drawn
+        .into_iter()
+        .filter_map(|(name, threads, picture)| {
+            let failure = picture.and_then(|picture| check(name, &picture)).err()?;
+            Some(format!("with {threads} threads: {failure}"))
+        })
+        .collect();
+    assert!(failures.is_empty(), "\n{}\n", failures.join("\n"));
+}
+
+#[test]
+fn every_picture_is_its_golden() {
+    let goldens = goldens();
+    check_all(PICTURES, |name, picture| goldens.check(name, picture));
+}
+
+/// Leaves each picture that passes in `target/golden/full/`, for comparisons with other builds.
+#[test]
+fn every_full_picture_has_its_hash() {
+    let goldens = goldens();
+    check_all(HASHES, |name, picture| {
+        goldens.check_hash(name, picture)?;
+        save(&output_folder().join("full").join(format!("{name}.png")), picture, Effort::Fast)
+    });
+}
+
+#[test]
+fn every_golden_is_small_and_belongs_to_a_case() {
+    let goldens = goldens();
+    let sorted = |names: Vec<String>| {
+        let set: BTreeSet<_> = names.iter().cloned().collect();
+        assert_eq!(set.len(), names.len(), "a name is used twice: {names:?}");
+        set.into_iter().collect::<Vec<_>>()
+    };
+    let pictures = sorted(PICTURES.iter().map(|case| format!("{}.png", case.0)).collect());
+    let hashes = sorted(HASHES.iter().map(|case| case.0.to_owned()).collect());
+    let all = sorted(PICTURES.iter().chain(HASHES).map(|case| case.0.to_owned()).collect());
+    assert!(!pictures.is_empty() && !hashes.is_empty());
+    assert_eq!(goldens.names(), [pictures.clone(), hashes, all]);
+    for picture in pictures {
+        check_size(&goldens.folder.join(picture)).unwrap();
+    }
+}
+
+#[test]
+fn all_goldens_differ_from_each_other() {
+    let folder = goldens().folder;
+    let read = |case: &Case| (case.0, png::read(&folder.join(format!("{}.png", case.0))).unwrap());
+    let pictures: Vec<_> = PICTURES.iter().map(read).collect();
+    for (index, (name, picture)) in pictures.iter().enumerate() {
+        for (other, same) in &pictures[..index] {
+            assert!(picture != same, "{name} and {other} show the same");
+        }
+    }
+    let hashes = std::fs::read_to_string(folder.join("hashes.txt")).unwrap();
+    let distinct: BTreeSet<_> = hashes.lines().map(|line| line.split_once(' ').unwrap().1).collect();
+    assert_eq!(distinct.len(), HASHES.len());
+}
+
+/// The harness itself: each of its refusals is seen to happen.
+mod harness {
+    use super::*;
+
+    fn picture(seed: u8) -> Pixels {
+        Pixels { width: 2, height: 1, rgba: vec![[seed, 0, 0, 255], [0, seed, 0, 255]] }
+    }
+
+    fn fresh(dir: &Path, bless: Option<&str>, unattended: bool) -> Goldens {
+        Goldens {
+            folder: dir.join("golden"),
+            failures: dir.join("failures"),
+            bless: bless.map(str::to_owned),
+            unattended,
+        }
+    }
+
+    #[test]
+    fn a_missing_golden_fails_and_writes_nothing() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::create_dir(dir.path().join("golden")).unwrap();
+        let goldens = fresh(dir.path(), None, false);
+        assert!(goldens.check("a", &picture(1)).unwrap_err().contains("no golden"));
+        assert!(goldens.check_hash("a", &picture(1)).unwrap_err().contains("no hash"));
+        assert_eq!(goldens.names(), [vec![], vec![], vec![]] as [Vec<String>; 3]);
+    }
+
+    #[test]
+    fn blessing_needs_a_reason_and_somebody_who_watches() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::create_dir(dir.path().join("golden")).unwrap();
+        for (bless, unattended) in [(" ", false), ("a reason", true)] {
+            let goldens = fresh(dir.path(), Some(bless), unattended);
+            assert!(goldens.check("a", &picture(1)).is_err());
+            assert!(goldens.check_hash("a", &picture(1)).is_err());
+            assert_eq!(goldens.names(), [vec![], vec![], vec![]] as [Vec<String>; 3]);
+        }
+    }
+
+    #[test]
+    fn blessing_writes_and_still_fails() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::create_dir(dir.path().join("golden")).unwrap();
+        let blessing = fresh(dir.path(), Some("first"), false);
+        assert!(blessing.check("a", &picture(1)).unwrap_err().contains("blessed"));
+        assert!(blessing.check_hash("b", &picture(1)).unwrap_err().contains("blessed"));
+        let goldens = fresh(dir.path(), None, true);
+        assert_eq!(goldens.check("a", &picture(1)), Ok(()));
+        assert_eq!(goldens.check_hash("b", &picture(1)), Ok(()));
+        assert_eq!(
+            goldens.names(),
+            [vec!["a.png"], vec!["b"], vec!["a", "b"]]
+                .map(|n| n.iter().map(ToString::to_string).collect::<Vec<_>>())
+        );
+        let reasons = std::fs::read_to_string(dir.path().join("golden/blessed.txt")).unwrap();
+        assert_eq!(reasons, "a first\nb first\n");
+        let wide = Pixels { width: 257, height: 1, rgba: vec![[0, 0, 0, 255]; 257] };
+        assert!(blessing.check("wide", &wide).unwrap_err().contains("too large"));
+    }
+
+    #[test]
+    fn a_difference_fails_and_shows_the_triptych() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::create_dir(dir.path().join("golden")).unwrap();
+        let blessing = fresh(dir.path(), Some("first"), false);
+        assert!(blessing.check("a", &picture(1)).is_err() && blessing.check_hash("a", &picture(1)).is_err());
+        let goldens = fresh(dir.path(), None, false);
+        let mut other = picture(1);
+        other.rgba[1][2] = 1;
+        let message = goldens.check("a", &other).unwrap_err();
+        assert!(message.contains("1 pixels differ by up to 1"), "{message}");
+        assert_eq!(png::read(&dir.path().join("failures/a.png")).unwrap().width, 3 * 2 + 8);
+        assert!(goldens.check_hash("a", &other).is_err());
+        let turned = Pixels { width: 1, height: 2, rgba: picture(1).rgba };
+        assert!(goldens.check("a", &turned).is_err() && goldens.check_hash("a", &turned).is_err());
+    }
+}

@@ -1,0 +1,232 @@
+//! Promise: whatever text is read, it gives a scene that is finite and in range or errors with
+//! their places, and never a panic.
+
+use drape::error::Kind;
+use drape::scene::{Material, Overrides, Scene, Vec3, load_text};
+use proptest::prelude::*;
+
+/// Whether every value of a scene is finite and within the range that its documentation states.
+fn in_range(scene: &Scene) -> Result<(), TestCaseError> {
+    let positive = |x: f64| (1e-15..=1e15).contains(&x);
+    let not_negative = |x: f64| (0.0..=1e15).contains(&x);
+    let any = |v: Vec3| v.iter().all(|x| (-1e15..=1e15).contains(x));
+    let all_not_negative = |v: Vec3| v.iter().all(|&x| not_negative(x));
+    let name = |name: &str| !name.is_empty() && !name.contains(['/', '\\', '.', '\0']);
+    let material = |m: &Material| {
+        all_not_negative(m.color)
+            && [m.ka, m.kd, m.ks, m.shininess, m.km].into_iter().all(not_negative)
+            && m.normal_scaling.abs() <= 1e15
+            && m.height_scaling.abs() <= 1e15
+            && [&m.texture, &m.height_map, &m.environment].into_iter().all(|n| name(n))
+    };
+    if let Some(c) = &scene.cloth {
+        prop_assert!([c.width, c.height, c.density].into_iter().all(positive));
+        prop_assert!(c.num_width_points >= 2 && c.num_height_points >= 2);
+        prop_assert!(c.num_width_points * c.num_height_points <= 1 << 22);
+        prop_assert!(not_negative(c.thickness) && not_negative(c.ks) && (0.0..=100.0).contains(&c.damping));
+        prop_assert!(c.pinned.iter().all(|&[x, y]| x < c.num_width_points && y < c.num_height_points));
+        prop_assert!(material(&c.material));
+    }
+    for s in &scene.spheres {
+        prop_assert!(any(s.origin) && positive(s.radius) && (0.0..=1.0).contains(&s.friction));
+        prop_assert!((2..=1000).contains(&s.resolution[0]) && (3..=1000).contains(&s.resolution[1]));
+        prop_assert!(material(&s.material));
+    }
+    for p in &scene.planes {
+        prop_assert!(any(p.point) && any(p.normal) && p.normal.amax() >= 1e-15);
+        prop_assert!((0.0..=1.0).contains(&p.friction) && material(&p.material));
+    }
+    let sim = &scene.sim;
+    prop_assert!((1e-6..=1e9).contains(&sim.fps) && (1..=1_000_000_000).contains(&sim.steps_per_frame));
+    prop_assert!(any(sim.gravity) && sim.stretch_limit.is_none_or(not_negative) && sim.stretch_passes >= 1);
+    let camera = &scene.camera;
+    prop_assert!(camera.target.is_none_or(any) && camera.distance.is_none_or(positive));
+    prop_assert!((0.0..=180.0).contains(&camera.polar) && camera.azimuth.abs() <= 1e15);
+    prop_assert!([camera.hfov, camera.vfov].iter().all(|fov| (0.001..=179.999).contains(fov)));
+    prop_assert!(positive(camera.near) && positive(camera.far) && camera.near < camera.far);
+    let light = &scene.light;
+    prop_assert!(any(light.position) && all_not_negative(light.intensity) && all_not_negative(light.color));
+    prop_assert!(light.color.amax() >= 1e-15);
+    let render = &scene.render;
+    prop_assert!(render.size.iter().all(|side| (1..=16384).contains(side)));
+    prop_assert!([1, 4, 8, 16].contains(&render.samples) && (0.0..=1e6).contains(&render.time));
+    prop_assert!(all_not_negative(render.background));
+    Ok(())
+}
+
+/// What holds of every text: a scene in range, or errors each with its place in the text.
+fn loads_or_explains(text: &str, sets: &[String]) -> Result<bool, TestCaseError> {
+    match load_text("x.json", text, &Overrides { patches: vec![], sets: sets.to_vec() }) {
+        Ok(loaded) => in_range(&loaded.scene).map(|()| true),
+        Err(error) => {
+            prop_assert!(matches!(error.kind, Kind::Scene | Kind::Usage), "{error:?}");
+            prop_assert_eq!(error.diagnostics.is_empty(), error.kind == Kind::Usage);
+            for d in error.diagnostics.iter().filter(|d| d.code != "scene::more") {
+                let place = format!("--> {}:{}:{}\n", d.file, d.line, d.column);
+                let printable = sets.iter().all(|set| set.chars().all(|c| c.is_ascii_graphic()));
+                prop_assert!(
+                    !printable || (d.rendered.clone() + "\n").contains(&place),
+                    "{place}{}",
+                    d.rendered
+                );
+            }
+            Ok(false)
+        }
+    }
+}
+
+/// Any JSON value, with numbers at the edges of ranges.
+fn json() -> impl Strategy<Value = String> {
+    let number = prop_oneof![
+        any::<f64>()
+            .prop_filter("JSON has no such numbers", |x| x.is_finite())
+            .prop_map(|x| format!("{x:e}")),
+        (-2..60_i32).prop_map(|x| x.to_string()),
+        prop::sample::select(vec![
+            "1e999",
+            "-1e999",
+            "-0",
+            "1e15",
+            "1e-15",
+            "5e-324",
+            "0.5",
+            "50.0",
+            "2147483648"
+        ])
+        .prop_map(str::to_owned),
+    ];
+    let word = prop::sample::select(vec![
+        "null",
+        "true",
+        "false",
+        "\"\"",
+        "\"phong\"",
+        "\"off\"",
+        "\"cube\"",
+        "\"5\"",
+    ]);
+    let leaf = prop_oneof![3 => number, 1 => word.prop_map(str::to_owned)];
+    leaf.prop_recursive(3, 24, 4, |inner| {
+        prop_oneof![
+            2 => prop::collection::vec(inner.clone(), 0..4).prop_map(|items| format!("[{}]", items.join(","))),
+            1 => prop::collection::vec((key(), inner), 0..4).prop_map(|members| {
+                let members: Vec<String> = members.iter().map(|(k, v)| format!("\"{k}\":{v}")).collect();
+                format!("{{{}}}", members.join(","))
+            }),
+        ]
+    })
+}
+
+/// Mostly keys that mean something somewhere.
+fn key() -> impl Strategy<Value = String> {
+    prop_oneof![9 => prop::sample::select(KEYS.to_vec()).prop_map(str::to_owned), 1 => "[a-zé]{0,6}"]
+}
+
+const KEYS: [&str; 30] = [
+    "cloth",
+    "sphere",
+    "plane",
+    "sim",
+    "camera",
+    "light",
+    "material",
+    "render",
+    "width",
+    "num_width_points",
+    "thickness",
+    "orientation",
+    "pinned",
+    "origin",
+    "radius",
+    "friction",
+    "resolution",
+    "point",
+    "normal",
+    "fps",
+    "gravity",
+    "stretch_limit",
+    "target",
+    "near",
+    "far",
+    "color",
+    "shader",
+    "size",
+    "samples",
+    "0",
+];
+
+/// A text with all keys in it, valid as it stands.
+const FULL: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 5, "num_height_points": 5, "thickness": 0.0095,
+"orientation": 0, "pinned": [[0, 0], [4, 0]], "damping": 0.2, "density": 150, "ks": 5000, "enable_structural": true,
+"enable_shearing": true, "enable_bending": true, "material": {"shader": "bump", "color": [1, 0.5, 0]}},
+"sphere": [{"origin": [0.5, 0.2, 0.5], "radius": 0.2, "friction": 0.3, "resolution": [16, 16]}],
+"plane": {"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.5},
+"sim": {"fps": 90, "steps_per_frame": 30, "gravity": [0, -9.8, 0], "stretch_limit": 0.1, "self_collision": "off"},
+"camera": {"target": [0, 0, 0], "distance": 2, "polar": 90, "azimuth": 0, "hfov": 50, "vfov": 35, "near": 0.01, "far": 9},
+"light": {"position": [0, 0, 0], "intensity": [1, 1, 1], "color": [1, 1, 1]},
+"material": {"texture": "a", "height_map": "b", "environment": "c", "ka": 0.1, "normal_scaling": 2},
+"render": {"size": [64, 48], "samples": 4, "background": [0, 0, 0], "time": 1, "filter": "nearest"}}"#;
+
+/// Every path in [`FULL`] that leads to a value.
+fn paths() -> Vec<String> {
+    fn walk(value: &serde_json::Value, path: &str, found: &mut Vec<String>) {
+        let join = |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
+        if !path.is_empty() {
+            found.push(path.to_owned());
+        }
+        match value {
+            serde_json::Value::Object(members) => members.iter().for_each(|(k, v)| walk(v, &join(k), found)),
+            serde_json::Value::Array(items) => {
+                items.iter().enumerate().for_each(|(i, v)| walk(v, &join(&i.to_string()), found));
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    walk(&serde_json::from_str(FULL).expect("JSON"), "", &mut found);
+    found
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_loads_or_is_explained(text in "\\PC*") {
+        loads_or_explains(&text, &[])?;
+    }
+
+    #[test]
+    fn any_json_loads_or_is_explained(text in json()) {
+        loads_or_explains(&text, &[])?;
+    }
+
+    #[test]
+    fn a_scene_with_bytes_changed_loads_or_is_explained(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), "[ -~\n\tä]{0,2}"), 1..4),
+    ) {
+        let mut text: Vec<char> = FULL.chars().collect();
+        for (at, new) in changes {
+            let at = at.index(text.len());
+            text.splice(at..=at, new.chars());
+        }
+        loads_or_explains(&text.into_iter().collect::<String>(), &[])?;
+    }
+
+    #[test]
+    fn a_scene_with_values_changed_loads_or_is_explained(
+        changes in prop::collection::vec((prop::sample::select(paths()), json()), 1..3),
+    ) {
+        let sets: Vec<String> = changes.iter().map(|(path, value)| format!("{path}={value}")).collect();
+        loads_or_explains(FULL, &sets)?;
+    }
+
+    #[test]
+    fn any_set_applies_or_is_explained(set in "[a-z0-9.=\\[\\]{}\":, é-]{0,24}") {
+        loads_or_explains(FULL, &[set])?;
+    }
+}
+
+#[test]
+fn the_full_scene_is_valid() {
+    assert!(loads_or_explains(FULL, &[]).unwrap(), "else the changed scenes above would all be refused");
+}
