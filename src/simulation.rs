@@ -5,19 +5,21 @@ mod locate;
 use std::time::Instant;
 
 use crate::cloth::collide::Objects;
+use crate::cloth::contact::Outside;
 use crate::cloth::energy::Energy;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
 use crate::cloth::guard::{Allowance, Budget, first_lost};
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
+use crate::cloth::neighbors::Neighbors;
 use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Constants, Counters, Points, verlet};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 
 /// A scene in motion. Without a cloth it has zero points, and only its clock moves.
 #[derive(Clone, Debug)]
@@ -43,13 +45,28 @@ struct State {
     last: Points,
     forces: Forces,
     self_collision: Option<SelfCollision>,
+    neighbors: Option<Neighbors>,
     objects: Option<Objects>,
     stretch_limit: Option<StretchLimit>,
+    outside: Option<Outside>,
     recorder: Option<Recorder>,
     allowance: Allowance,
     budget: Budget,
     /// Positions and last positions where the frame began.
     frame_start: [Points; 2],
+}
+
+/// A position that a step is too short for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unresolved {
+    /// Column and row of the point.
+    pub point: (usize, usize),
+    /// The coordinate: 0, 1 or 2.
+    pub axis: usize,
+    /// What gravity adds to the displacement in a step, in metres.
+    pub fall: f64,
+    /// Distance of two neighbouring numbers at the position, in metres.
+    pub rounding: f64,
 }
 
 /// Wall time spent in each phase since the start, in nanoseconds.
@@ -130,6 +147,24 @@ impl Simulation {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The first free point whose position rounds away more than a hundredth of what gravity adds
+    /// to its displacement in a step, where `time` seconds of it would show.
+    pub fn unresolved(&self, time: f64) -> Option<Unresolved> {
+        let cloth = self.cloth.as_ref()?;
+        let Constants { weight, mass, dt, .. } = cloth.constants;
+        for p in cloth.pins.free.iter().cloned().flatten() {
+            let point = cloth.grid.column_row(p);
+            for (axis, x) in cloth.x.get(p).iter().enumerate() {
+                let (g, rounding) = ((weight[axis] / mass).abs(), f64::EPSILON * x.abs());
+                let fall = g * dt * dt;
+                if g > 0.0 && 0.5 * rounding > 0.01 * fall && 0.5 * g * time * time > rounding {
+                    return Some(Unresolved { point, axis, fall, rounding });
+                }
+            }
+        }
+        None
     }
 
     /// Lets the energy of the cloth grow without an error; positions are still checked.
@@ -233,7 +268,9 @@ impl State {
             last: grid::start(cloth, grid)?,
             forces: Forces::new(&springs)?,
             self_collision: SelfCollision::new(cloth, &scene.sim, grid, &x)?,
+            neighbors: Neighbors::new(cloth, &scene.sim, &x)?,
             objects: Objects::new(scene),
+            outside: Outside::new(scene, &x)?,
             stretch_limit: StretchLimit::new(&scene.sim, &springs)?,
             recorder: None,
             budget: Budget::default(),
@@ -242,8 +279,22 @@ impl State {
             springs,
             x,
         };
+        if scene.sim.start == Start::HalfStep {
+            state.start_half_step();
+        }
         state.set_budget();
         Ok(Some(state))
+    }
+
+    /// Puts the last positions where points at rest would have been one step ago under the forces at
+    /// the start: `last = x + f dt² / (2 m)`.
+    fn start_half_step(&mut self) {
+        let Self { constants, pins, springs, x, last, forces, .. } = self;
+        forces.compute(x, springs, constants.weight, &mut Counters::default());
+        let half = 0.5 * constants.dt * constants.dt / constants.mass;
+        for p in pins.free.iter().cloned().flatten() {
+            last.set(p, x.get(p) + forces.sum.get(p) * half);
+        }
     }
 
     /// Takes the state as the start that the energy is held against.
@@ -305,6 +356,11 @@ impl State {
             stopwatch.lap(|timings| &mut timings.self_collision);
             book(x, last, |ledger| &mut ledger.self_collision);
         }
+        if let Some(neighbors) = &mut self.neighbors {
+            neighbors.apply(x, pins, counters);
+            stopwatch.lap(|timings| &mut timings.self_collision);
+            book(x, last, |ledger| &mut ledger.self_collision);
+        }
 
         // 4. Objects: points that went through a plane or into a sphere are put back.
         if let Some(objects) = &self.objects {
@@ -320,6 +376,15 @@ impl State {
             stretch_limit.apply(x, springs, pins, counters);
             stopwatch.lap(|timings| &mut timings.stretch_limit);
             book(x, last, |ledger| &mut ledger.stretch_limit);
+        }
+
+        // Where the scene asks for it: points that the phases left inside an object leave it.
+        if let Some(outside) = &self.outside {
+            outside.leave_planes(x, pins, counters);
+            book(x, last, |ledger| &mut ledger.planes);
+            outside.leave_spheres(x, pins, counters);
+            stopwatch.lap(|timings| &mut timings.objects);
+            book(x, last, |ledger| &mut ledger.spheres);
         }
     }
 }
