@@ -30,6 +30,7 @@ use crate::scene::{Scene, Start};
 pub struct Simulation {
     steps_per_frame: u64,
     dt: f64,
+    steps_per_second: f64,
     steps: u64,
     cloth: Option<State>,
     counters: Counters,
@@ -82,6 +83,7 @@ impl Simulation {
     pub fn new(scene: &Scene) -> Result<Self> {
         Ok(Self {
             steps_per_frame: u64::from(scene.sim.steps_per_frame),
+            steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
             dt: 1.0 / scene.sim.fps / f64::from(scene.sim.steps_per_frame),
             steps: 0,
             cloth: State::new(scene)?,
@@ -173,7 +175,7 @@ impl Simulation {
 
     /// Simulated time since the start, in seconds.
     pub fn time(&self) -> f64 {
-        self.steps as f64 * self.dt
+        self.steps as f64 / self.steps_per_second
     }
 
     /// Where the points are, in metres.

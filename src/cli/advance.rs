@@ -58,15 +58,18 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
 
 /// The error of a cloth that vibrates too fast even at rest.
 fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
-    let Stability { mass, dt, limit, omega_rest, .. } = *stability;
+    let Stability { mass, dt, limit, omega_rest, omega_safe } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
         "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
     let fewest = stability.fewest_steps(omega_rest);
+    let safe = stability.fewest_steps(omega_safe);
     let softer = rounded_down(ks * (limit / (dt * omega_rest)) * (limit / (dt * omega_rest)));
     let help = format!(
-        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; --allow-unstable runs on"
+        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; {safe} hold in every \
+         configuration: --set sim.steps_per_frame={safe} (damping per step acts that much more often); \
+         --allow-unstable runs on"
     );
     Error::new(Kind::Unstable, message).with_help(help)
 }

@@ -14,6 +14,7 @@ use crate::output::png::{self, Effort};
 use crate::output::raw;
 use crate::raster::Stats;
 use crate::render::{Picture, Renderer};
+use crate::scene::Scene;
 use crate::simulation::Simulation;
 
 /// What `render` takes.
@@ -60,7 +61,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     args.look.apply(&mut scene);
     let until = args.moment.until(&scene);
     let path = args.picture_path()?;
-    args.check_outputs(&path, session)?;
+    args.check_outputs(&path, &scene, session)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
     let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
@@ -88,7 +89,7 @@ impl Args {
     }
 
     /// Checks all outputs before any long work; a benchmark has none.
-    fn check_outputs(&self, picture: &Path, session: &Session) -> Result<()> {
+    fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
         if self.bench.is_some() {
             return Ok(());
         }
@@ -96,7 +97,7 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let textures = self.look.inputs();
+        let textures = self.look.inputs(scene);
         let inputs: Vec<&Path> =
             self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
         outputs::check(&inputs, all)

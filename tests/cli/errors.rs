@@ -299,7 +299,8 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
     fs::create_dir_all(scratch.path("set/cube")).expect("folders");
     for texture in ["set/texture_1.png", "set/cube/posx.png"] {
         fs::write(scratch.path(texture), "not looked into").expect("a file");
-        fails(&scratch, &["render", "small.json", texture, "--textures", "set"], 2, "usage");
+        let arguments = ["render", "small.json", texture, "--textures", "set", "--shader", "custom"];
+        fails(&scratch, &arguments, 2, "usage");
         assert_eq!(scratch.read(texture), b"not looked into");
     }
 }
