@@ -29,7 +29,6 @@ use crate::scene::{Scene, Start};
 #[derive(Clone, Debug)]
 pub struct Simulation {
     steps_per_frame: u64,
-    dt: f64,
     steps_per_second: f64,
     steps: u64,
     cloth: Option<State>,
@@ -84,7 +83,6 @@ impl Simulation {
         Ok(Self {
             steps_per_frame: u64::from(scene.sim.steps_per_frame),
             steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
-            dt: 1.0 / scene.sim.fps / f64::from(scene.sim.steps_per_frame),
             steps: 0,
             cloth: State::new(scene)?,
             counters: Counters::default(),
@@ -197,7 +195,7 @@ impl Simulation {
     /// The extremes of the cloth; zero without a cloth.
     pub fn extremes(&self) -> Extremes {
         let Some(cloth) = &self.cloth else { return Extremes::default() };
-        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, self.dt)
+        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.constants.dt)
     }
 
     /// Keeps an energy ledger from now on. The cloth moves as without one, to the last bit.
