@@ -4,7 +4,7 @@ use nalgebra::{Matrix4, Vector3};
 
 use crate::{
     cloth::grid::{self, Grid},
-    error::Result,
+    error::{Error, Kind, Result},
     math::{sin_cos_degrees, tan},
     scene::{Camera as Settings, Cloth, Scene, Vec3},
 };
@@ -28,7 +28,7 @@ impl Camera {
     /// The camera of a scene, for the picture size that the scene asks for.
     ///
     /// # Errors
-    /// A cloth that does not fit in memory.
+    /// A cloth that does not fit in memory; a distance that is lost in the target's rounding.
     pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
         let target = match (settings.target, &scene.cloth) {
@@ -47,6 +47,10 @@ impl Camera {
         } else {
             Vector3::y()
         };
+        if eye == target {
+            return Err(Error::new(Kind::Scene, "the camera stands in its target")
+                .with_help("raise camera.distance, or move camera.target nearer to the origin"));
+        }
         let [width, height] = scene.render.size.map(f64::from);
         let product = projection(settings, width / height) * view(&eye, &target, &up);
         Ok(Self { view_projection: columns(&product), position: [eye.x, eye.y, eye.z].map(round) })

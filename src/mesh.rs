@@ -161,7 +161,7 @@ fn vertex_normals(points: &Points, triangles: &[[u32; 3]]) -> Vec<Vec3> {
 /// ∂p/∂u along the row (central, one-sided at the ends), made orthogonal to the normal, unit.
 /// Where the row stands still it is any direction orthogonal to the normal.
 fn row_tangent(points: &Points, w: usize, i: usize, normal: &Vec3) -> Vec3 {
-    let left = if i % w == 0 { i } else { i - 1 };
+    let left = if i.is_multiple_of(w) { i } else { i - 1 };
     let right = if i % w == w - 1 { i } else { i + 1 };
     let along = points.get(right) - points.get(left);
     unit_or(along - normal * along.dot(normal), unit_or(in_plane(normal), Vector3::x()))

@@ -3,21 +3,64 @@
 //! A golden is replaced by `DRAPE_BLESS="reason" cargo test --release --test golden`, which fails
 //! after it has written; the next run compares. What differs is shown in `target/golden/`.
 
-mod support;
+mod goldens;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use drape::output::png::{self, Effort, Pixels};
+use goldens::files::{Goldens, check_size, save};
+use goldens::program::{Case, draw, repository};
 use rayon::prelude::*;
-use support::golden::{Goldens, check_size, save};
-use support::program::{Case, draw, repository};
 
 /// Pictures kept as files: name, scene, arguments of `render`. At most 256 x 256 and 20 KiB.
-const PICTURES: &[Case] = &[("sphere_phong", "sphere.json", "--size 256x200 --time 1")];
+const PICTURES: &[Case] = &[
+    ("part5-phong-full", "sphere.json", "--patch scenes/look/draped.json --size 256x200"),
+    ("ball-texture", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader texture"),
+    (
+        "ball-bump",
+        "sphere.json",
+        "--patch scenes/look/ball.json --size 160x125 --shader bump --set material.normal_scaling=100",
+    ),
+    (
+        "ball-displacement",
+        "sphere.json",
+        "--patch scenes/look/ball.json --size 160x125 --shader displacement",
+    ),
+    ("ball-mirror", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader mirror"),
+    ("ball-custom", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader custom"),
+    ("ball-nearest", "sphere.json", NEAREST),
+    ("sphere-samples", "sphere.json", "--patch scenes/look/draped.json --time 1 --size 192x150 --samples 4"),
+    (
+        "sphere-custom",
+        "sphere.json",
+        "--patch scenes/look/draped.json --time 1 --size 160x125 --shader custom",
+    ),
+    (
+        "pinned2-wireframe",
+        "pinned2.json",
+        "--time 0.4 --size 256x200 --shader wireframe --springs structural --set camera.polar=60",
+    ),
+    ("pinned4-normal", "pinned4.json", "--time 0.5 --size 192x150 --shader normal --set camera.polar=60"),
+    ("plane-texture", "plane.json", "--time 1 --size 112x88 --shader texture --set camera.polar=50"),
+    (
+        "selfCollision-normal",
+        "selfCollision.json",
+        "--time 0.3 --size 192x150 --shader normal --set camera.azimuth=40",
+    ),
+];
+
+/// The grid of letters, looked up without weights.
+const NEAREST: &str = "--patch scenes/look/ball.json --size 160x125 --shader texture \
+    --set render.filter=nearest --set material.texture=texture_4";
 
 /// Pictures kept as a hash only, so of any size.
-const HASHES: &[Case] = &[("sphere", "sphere.json", "")];
+const HASHES: &[Case] = &[
+    ("sphere", "sphere.json", ""),
+    ("sphere-mirror-8", "sphere.json", "--shader mirror --samples 8 --size 640x480"),
+    ("plane-displacement", "plane.json", "--shader displacement --set camera.polar=60"),
+    ("selfCollision", "selfCollision.json", "--set camera.polar=75 --set camera.azimuth=40"),
+];
 
 /// Numbers of threads that each picture is drawn with.
 const THREADS: [usize; 2] = [1, 3];

@@ -7,7 +7,7 @@ use clap::builder::TypedValueParser;
 
 use crate::mesh::SpringKinds;
 use crate::render::Options;
-use crate::scene::{Material, Scene, Shader};
+use crate::scene::{MAX_RESOLUTION, Material, Scene, Shader};
 use crate::texture_source::TextureSource;
 
 /// Changes to how a scene is drawn.
@@ -22,11 +22,11 @@ pub(super) struct Look {
     /// Samples per pixel: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<u32>,
-    /// Latitude count of the drawn spheres, 2 to 2048
-    #[arg(short = 'a', value_name = "N", value_parser = clap::value_parser!(u32).range(2..=2048))]
+    /// Latitude count of the drawn spheres, 2 to 1000
+    #[arg(short = 'a', value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_RESOLUTION)))]
     latitudes: Option<u32>,
-    /// Longitude count of the drawn spheres, 3 to 2048
-    #[arg(short = 'o', value_name = "N", value_parser = clap::value_parser!(u32).range(3..=2048))]
+    /// Longitude count of the drawn spheres, 3 to 1000
+    #[arg(short = 'o', value_name = "N", value_parser = clap::value_parser!(u32).range(3..=i64::from(MAX_RESOLUTION)))]
     longitudes: Option<u32>,
     /// Springs that a wireframe shows, separated by commas (default: those of the cloth)
     #[arg(long, value_name = "KINDS", value_parser = springs)]
@@ -53,6 +53,17 @@ impl Look {
     /// Where textures come from.
     pub(super) fn textures(&self) -> TextureSource {
         self.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder)
+    }
+
+    /// Every file that may be read as a texture: those of the folder and of the folders in it.
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        let entries = |folder: &PathBuf| {
+            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+            entries.map(|entry| entry.path()).collect::<Vec<_>>()
+        };
+        let top: Vec<PathBuf> = self.textures.iter().flat_map(entries).collect();
+        let nested: Vec<PathBuf> = top.iter().flat_map(entries).collect();
+        top.into_iter().chain(nested).filter(|path| path.is_file()).collect()
     }
 
     /// What is asked of the picture besides the scene.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::advance::{advance, start};
+use super::advance::{advance_until, start};
 use super::look::Look;
 use super::scene::{Moment, SceneArgs};
 use super::{Session, bench, outputs};
@@ -58,13 +58,13 @@ struct Summary {
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut scene = args.scene.load(session)?;
     args.look.apply(&mut scene);
-    let frames = args.moment.frame(&scene);
+    let until = args.moment.until(&scene);
     let path = args.picture_path()?;
     args.check_outputs(&path, session)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
-    let mut simulation = start(&scene, frames, args.moment.leniency.allow_unstable, session)?;
-    advance(&mut simulation, frames, session, |_| Ok(()))?;
+    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
+    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let options = args.look.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
@@ -96,7 +96,10 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        outputs::check(&self.scene.inputs(), all)
+        let textures = self.look.inputs();
+        let inputs: Vec<&Path> =
+            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        outputs::check(&inputs, all)
     }
 
     fn fills_stdout(&self) -> bool {

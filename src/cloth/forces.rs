@@ -120,6 +120,7 @@ fn pull_each(
     for i in 0..n {
         let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
         let l = (ex * ex + ey * ey + ez * ez).sqrt();
+        // Dividing first and choosing after leaves the loop without a branch, so it is vectorised.
         let scale = stiffness * (l - rest[i]) / l;
         let scale = if l == 0.0 { 0.0 } else { scale };
         out_x[i] = ex * scale;

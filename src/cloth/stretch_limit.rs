@@ -1,9 +1,10 @@
 //! Phase 5: the stretch limit of Provot 1995. A spring that is too long is shortened to its limit
 //! by moving its ends, in creation order, each seeing what the one before it did.
 //!
-//! Most springs are not too long, so the springs of a block of points are first looked at all at
-//! once. That keeps every bit: the look comes right before the block's turn, so it sees the
-//! positions that the pass would see, and a pass that finds no spring too long moves nothing.
+//! Most springs are not too long, so the springs of a row, and then of a block of its points, are
+//! first looked at all at once. That keeps every bit: the look comes right before their turn, so
+//! it sees the positions that the pass would see, and a pass that finds no spring too long moves
+//! nothing.
 
 use std::ops::Range;
 

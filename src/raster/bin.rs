@@ -14,6 +14,10 @@ pub(super) const CHUNK: usize = 2048;
 /// Primitives that a chunk can hold after clipping: a triangle becomes at most 7.
 const CHUNK_BITS: u32 = 14;
 
+/// Largest coordinate in clip space. With larger ones, clipping in f64 loses the digits that place
+/// what is left in the window.
+const CLIP_LIMIT: f32 = 4_294_967_296.0;
+
 /// The place of a primitive among all chunks, plus one: 0 is nothing.
 pub(super) type Handle = u32;
 
@@ -90,7 +94,7 @@ impl Chunk {
     fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
         let positions = corners.map(|corner| vertices.positions[corner as usize]);
         let codes = positions.map(outside);
-        if !positions.as_flattened().iter().all(|c| c.is_finite()) {
+        if !in_range(&positions) {
             self.counts.non_finite += 1;
         } else if codes[0] & codes[1] & codes[2] != 0 {
             self.counts.outside += 1;
@@ -113,15 +117,16 @@ impl Chunk {
         let mut polygon: Vec<ClipVertex> =
             (0..3).map(|i| unclipped(vertices.positions[corners[i] as usize], i)).collect();
         clip_polygon(&mut polygon, planes);
-        let made: Vec<_> =
-            polygon.iter().map(|v| (round(v.position), self.add_vertex(v, corners, vertices))).collect();
-        let Some((&first, rest)) = made.split_first() else {
+        if polygon.len() < 3 {
             self.counts.outside += 1;
             return;
-        };
+        }
+        let made: Vec<_> =
+            polygon.iter().map(|v| (round(v.position), self.add_vertex(v, corners, vertices))).collect();
+        let [first, rest @ ..] = &made[..] else { return };
         self.counts.clipped += 1;
         for pair in rest.windows(2) {
-            let fan = [first, pair[0], pair[1]];
+            let fan = [*first, pair[0], pair[1]];
             self.set_up_triangle(fan.map(|v| v.0), fan.map(|v| v.1), source, viewport);
         }
     }
@@ -163,7 +168,7 @@ impl Chunk {
         let positions = ends.map(|end| vertices.positions[end as usize]);
         let codes = positions.map(outside);
         let mut clipped = positions;
-        if !positions.as_flattened().iter().all(|c| c.is_finite()) {
+        if !in_range(&positions) {
             return self.drop(Dropped::NonFinite);
         }
         if codes != [0; 2] {
@@ -245,6 +250,11 @@ fn unclipped(position: [f32; 4], i: usize) -> ClipVertex {
     let mut weights = [0.0; 3];
     weights[i] = 1.0;
     ClipVertex { position: position.map(f64::from), weights }
+}
+
+/// Whether no coordinate is NaN, infinite or far too large.
+fn in_range(positions: &[[f32; 4]]) -> bool {
+    positions.as_flattened().iter().all(|c| c.abs() <= CLIP_LIMIT)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "clip space is f32")]

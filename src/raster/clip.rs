@@ -68,3 +68,68 @@ fn meet(a: ClipVertex, d_a: f64, b: ClipVertex, d_b: f64) -> ClipVertex {
         weights: std::array::from_fn(|i| at(a.weights[i], b.weights[i])),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::splitmix64;
+
+    /// Vertices far and near, in front of the eye and behind it.
+    fn vertex(i: u64) -> [f64; 4] {
+        std::array::from_fn(|k| {
+            let bits = splitmix64(4 * i + k as u64);
+            #[expect(clippy::cast_precision_loss, reason = "24 bits")]
+            let part = (bits >> 40) as f64 / 8_388_608.0 - 1.0;
+            part * if bits & 3 == 0 { 1000.0 } else { 2.0 }
+        })
+    }
+
+    fn corner(position: [f64; 4], i: usize) -> ClipVertex {
+        let mut weights = [0.0; 3];
+        weights[i] = 1.0;
+        ClipVertex { position, weights }
+    }
+
+    /// The bits of the positions that clipping leaves of edge (0, 1) of a triangle, in order.
+    fn on_shared_edge(corners: [[f64; 4]; 3]) -> Vec<[u64; 4]> {
+        let mut polygon: Vec<ClipVertex> = (0..3).map(|i| corner(corners[i], i)).collect();
+        clip_polygon(&mut polygon, 0b11_1111);
+        let shared = polygon.iter().filter(|v| v.weights[2] == 0.0);
+        let mut bits: Vec<_> = shared.map(|v| v.position.map(f64::to_bits)).collect();
+        bits.sort_unstable();
+        bits
+    }
+
+    #[test]
+    fn an_edge_is_cut_alike_from_both_sides() {
+        let mut cut = 0;
+        for i in 0..20_000 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| vertex(4 * i + k));
+            let (one, other) = (on_shared_edge([a, b, c]), on_shared_edge([b, a, d]));
+            assert_eq!(one, other, "{a:?} {b:?}");
+            let segment =
+                |ends: [[f64; 4]; 2]| clip_segment([corner(ends[0], 0), corner(ends[1], 1)], 0b11_1111);
+            let backwards = segment([b, a]).map(|[to, from]| [from.position, to.position]);
+            assert_eq!(segment([a, b]).map(|ends| ends.map(|end| end.position)), backwards);
+            cut += one.len();
+        }
+        assert!(cut > 4000, "only {cut} vertices");
+    }
+
+    #[test]
+    fn weights_tell_where_a_vertex_is() {
+        for i in 0..20_000 {
+            let corners = [0, 1, 2].map(|k| vertex(3 * i + k));
+            let mut polygon: Vec<ClipVertex> = (0..3).map(|i| corner(corners[i], i)).collect();
+            clip_polygon(&mut polygon, 0b11_1111);
+            for ClipVertex { position, weights } in polygon {
+                assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{weights:?}");
+                for (k, coordinate) in position.into_iter().enumerate() {
+                    let mixed: f64 = (0..3).map(|i| weights[i] * corners[i][k]).sum();
+                    assert!((coordinate - mixed).abs() < 1e-9, "{coordinate} for {mixed}");
+                }
+                assert!(distances(position).iter().all(|&d| d > -1e-9), "{position:?} is outside");
+            }
+        }
+    }
+}

@@ -24,8 +24,8 @@ pub(super) struct Tile {
     pub(super) left: usize,
     /// Picture row of the tile's top row.
     pub(super) top: usize,
-    /// Stored colour.
-    pub(super) color: Vec<[u8; 3]>,
+    /// Stored colour: red, green, blue, and alpha, which is always 255.
+    pub(super) color: Vec<[u8; 4]>,
     /// Window depth per sample; 1 where nothing was drawn.
     pub(super) depth: Vec<f32>,
     /// The primitive seen per sample (see `bin::Handle`); 0 where nothing was drawn.
@@ -43,7 +43,7 @@ impl Framebuffer {
             .map(|i| Tile {
                 left: i % columns * TILE,
                 top: i / columns * TILE,
-                color: vec![[0; 3]; TILE_PIXELS],
+                color: vec![[0; 4]; TILE_PIXELS],
                 depth: vec![1.0; TILE_PIXELS * samples],
                 visible: vec![0; TILE_PIXELS * samples],
                 ids: Vec::new(),
@@ -54,7 +54,7 @@ impl Framebuffer {
 
     /// Stored colours, three bytes a pixel, top row first.
     pub fn rgb(&self) -> Vec<u8> {
-        self.rows(|tile| &tile.color).flatten().copied().collect()
+        self.rows(|tile| &tile.color).flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()
     }
 
     /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.

@@ -70,7 +70,8 @@ fn depth_at(line: &Line, walk: &Walk, major: i64) -> f32 {
     let (from, to) = if walk.along_x { (a.x, b.x) } else { (a.y, b.y) };
     let length = f64::from(to) - f64::from(from);
     let part = if length == 0.0 { 0.0 } else { (major as f64 + 0.5 - f64::from(from)) / length };
-    (f64::from(a.z) + (f64::from(b.z) - f64::from(a.z)) * part) as f32
+    // The last centre may lie beyond the end, and the depth there below 0.
+    ((f64::from(a.z) + (f64::from(b.z) - f64::from(a.z)) * part) as f32).max(0.0)
 }
 
 impl Walk {

@@ -10,6 +10,8 @@ mod clip;
 mod framebuffer;
 mod line;
 mod resolve;
+#[cfg(test)]
+mod same_bits;
 mod samples;
 mod setup;
 mod shade;
@@ -101,7 +103,7 @@ pub struct Stats {
     pub covered: u64,
 }
 
-/// Wall time per stage. Rasterising and shading alternate within a tile; their shares of the
+/// Wall time per stage of [`draw`]. Rasterising and shading alternate within a tile; their shares of the
 /// tiles' wall time are those of their summed processor time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
@@ -117,7 +119,8 @@ pub struct Stages {
 
 /// Clears the framebuffer to `background` and draws `calls` in order.
 ///
-/// With `ids`, also keeps per pixel `object << 24 | (triangle + 1)`, objects numbered from 1.
+/// With `ids`, also keeps per pixel `object << 24 | (primitive + 1)`, objects numbered from 1; lines
+/// after the 16 777 214th share the last number.
 pub fn draw(
     framebuffer: &mut Framebuffer,
     background: [f32; 3],

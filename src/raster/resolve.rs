@@ -5,7 +5,7 @@
 //! A pixel's colour is the mean over its samples of the clamped linear colours, rounded half to
 //! even to 8 bits.
 
-use std::time::Instant;
+use std::{ops::Range, time::Instant};
 
 use super::{
     TileCost, TileScene,
@@ -28,22 +28,25 @@ pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) ->
 
     let samples = scene.viewport.samples;
     let mut sums = vec![[0.0; 3]; if samples > 1 { TILE_PIXELS } else { 0 }];
-    tile.color.fill(scene.background.map(|c| store(clamp(c))));
+    tile.color.fill(store(scene.background.map(clamp)));
     add_background(tile, scene, &mut sums);
     let mut list = FragmentList::default();
-    for call in 0..scene.calls.len() {
+    for call in (0..scene.calls.len()).filter(|&call| touches(call, index, scene)) {
         collect_fragments(tile, call, scene, &mut list);
         shade_fragments(tile, call, scene, &mut list);
         dispatch(WriteColors { tile, list: &list, samples, sums: &mut sums });
         cost.fragments += list.len as u64;
     }
     for (color, sum) in tile.color.iter_mut().zip(&sums) {
-        *color = sum.map(store);
+        #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
+        let mean = sum.map(|channel| channel as f32);
+        *color = store(mean);
     }
+    tile.ids.clear();
     if scene.ids {
         tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
     }
-    cost.covered = covered(tile, samples);
+    cost.covered = if samples == 1 { cost.fragments } else { covered(tile, samples) };
     cost.shading = seen.elapsed();
     cost
 }
@@ -73,6 +76,17 @@ impl Work for Visibility<'_> {
     }
 }
 
+/// The chunks of a draw call.
+fn chunks_of(call: usize, scene: &TileScene<'_>) -> Range<usize> {
+    let first = scene.chunks.partition_point(|chunk| chunk.call < call);
+    first..scene.chunks.partition_point(|chunk| chunk.call <= call)
+}
+
+/// Whether a primitive of a draw call may touch the tile.
+fn touches(call: usize, tile: usize, scene: &TileScene<'_>) -> bool {
+    scene.chunks[chunks_of(call, scene)].iter().any(|chunk| !chunk.in_tile(tile).is_empty())
+}
+
 /// Pixels of which at least one sample sees something.
 fn covered(tile: &Tile, samples: usize) -> u64 {
     let (first, others) = tile.visible.split_at(TILE_PIXELS);
@@ -93,11 +107,10 @@ fn samples_of<'a>(tile: &'a Tile, scene: &TileScene<'_>, pixel: usize) -> impl I
 /// Lists the pixels in which a primitive of draw call `call` is seen, each primitive once a pixel.
 fn collect_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
     list.clear();
-    let first = scene.chunks.partition_point(|chunk| chunk.call < call);
-    let last = scene.chunks.partition_point(|chunk| chunk.call <= call);
-    let handles = handle(first, 0)..handle(last, 0);
+    let chunks = chunks_of(call, scene);
+    let handles = handle(chunks.start, 0)..handle(chunks.end, 0);
     if scene.viewport.samples == 1 {
-        list.add_visible(&tile.visible, &handles);
+        list.list_visible(&tile.visible, &handles);
     } else {
         for pixel in 0..TILE_PIXELS {
             list.add_pixel(pixel, samples_of(tile, scene, pixel).filter(|seen| handles.contains(seen)));
@@ -119,7 +132,7 @@ struct WriteColors<'a> {
     tile: &'a mut Tile,
     list: &'a FragmentList,
     samples: usize,
-    sums: &'a mut [[f32; 3]],
+    sums: &'a mut [[f64; 3]],
 }
 
 impl Work for WriteColors<'_> {
@@ -131,27 +144,29 @@ impl Work for WriteColors<'_> {
         for (i, (&pixel, ((&r, &g), &b))) in list.pixels[..list.len].iter().zip(colors).enumerate() {
             let pixel = usize::from(pixel);
             if samples == 1 {
-                tile.color[pixel] = [store(r), store(g), store(b)];
+                tile.color[pixel] = store([r, g, b]);
             } else {
-                add(&mut sums[pixel], [r, g, b], f32::from(list.weights[i]) / samples as f32);
+                add(&mut sums[pixel], [r, g, b], f64::from(list.weights[i]) / samples as f64);
             }
         }
     }
 }
 
 /// Adds the background's share to the pixels' sums.
-fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f32; 3]]) {
+fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f64; 3]]) {
     let background = scene.background.map(clamp);
     for (pixel, sum) in sums.iter_mut().enumerate() {
         let free = samples_of(tile, scene, pixel).filter(|&handle| handle == 0).count();
         #[expect(clippy::cast_precision_loss, reason = "at most 16 samples")]
-        add(sum, background, free as f32 / scene.viewport.samples as f32);
+        add(sum, background, free as f64 / scene.viewport.samples as f64);
     }
 }
 
-fn add(sum: &mut [f32; 3], color: [f32; 3], share: f32) {
+/// Adds a share of a colour. In f64 the shares, of sixteenths, and their sums are exact, so that the
+/// mean of equal colours is that colour.
+fn add(sum: &mut [f64; 3], color: [f32; 3], share: f64) {
     for (sum, color) in sum.iter_mut().zip(color) {
-        *sum += color * share;
+        *sum += f64::from(color) * share;
     }
 }
 
@@ -169,7 +184,8 @@ fn id(handle: Handle, scene: &TileScene<'_>) -> u32 {
         .or_else(|| chunk.lines.get(index).map(|line| line.source));
     #[expect(clippy::cast_possible_truncation, reason = "objects are few")]
     let object = chunk.call as u32 + 1;
-    object << 24 | (source.unwrap_or(0) + 1)
+    // A cloth of more than 2.7 million points has more springs than 24 bits count.
+    object << 24 | (source.unwrap_or(0) + 1).min(0xFF_FFFF)
 }
 
 /// A colour channel in 0..=1; NaN is 0.
@@ -177,9 +193,15 @@ fn clamp(c: f32) -> f32 {
     if c > 0.0 { c.min(1.0) } else { 0.0 }
 }
 
-/// 8 bits of a channel in 0..=1: round-half-even(255·c).
+/// 8 bits of each channel in 0..=1, and alpha 1.
+#[inline(always)]
+fn store([r, g, b]: [f32; 3]) -> [u8; 4] {
+    [quantize(r), quantize(g), quantize(b), 255]
+}
+
+/// round-half-even(255·c) for c in 0..=1.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= c <= 1")]
-fn store(c: f32) -> u8 {
+fn quantize(c: f32) -> u8 {
     (c * 255.0).round_ties_even() as u8
 }

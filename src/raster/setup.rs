@@ -81,10 +81,16 @@ impl Viewport {
         let (x, y) = (grid(v.x), grid(v.y));
         if finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT {
             #[expect(clippy::cast_possible_truncation, reason = "checked right above")]
-            Ok([x as i32, self.height as i32 * SUBPIXELS - y as i32])
+            Ok([x as i32, self.flip(y as i32)])
         } else {
             Err(Dropped::NonFinite)
         }
+    }
+
+    /// Turns a snapped y up into y down, and back.
+    #[expect(clippy::cast_possible_truncation, reason = "pictures are at most 16384 pixels high")]
+    fn flip(&self, y: i32) -> i32 {
+        self.height as i32 * SUBPIXELS - y
     }
 
     /// Sets up a triangle from its corners in clip space.
@@ -111,7 +117,7 @@ impl Viewport {
             // The planes of depth and attributes need an area; the snapped corners have one.
             for (vertex, [x, y]) in window.iter_mut().zip(snapped) {
                 vertex.x = x as f32 / SUBPIXELS as f32;
-                vertex.y = (self.height as i32 * SUBPIXELS - y) as f32 / SUBPIXELS as f32;
+                vertex.y = self.flip(y) as f32 / SUBPIXELS as f32;
             }
         }
         Ok((Triangle { window, snapped, vertices, source }, bounds))

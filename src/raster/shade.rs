@@ -2,7 +2,8 @@
 //!
 //! Barycentric coordinates l are computed in f64 from the unsnapped window positions, rounded
 //! once, and weighted with 1/w: a = Σ lᵢ·rᵢ·aᵢ / Σ lᵢ·rᵢ. Inside the triangle all weights are
-//! positive, so nothing cancels: the error is below 6 ulp of max |aᵢ| (tested against f64).
+//! positive, so nothing cancels: the roundings add up to at most 11·2⁻²⁴·max |aᵢ|, and stay below
+//! 6·2⁻²⁴·max |aᵢ| in tests against f64 (4.6 is the largest seen).
 
 use std::{marker::PhantomData, ops::Range};
 
@@ -17,6 +18,10 @@ use crate::{
     lanes::{Lane, WIDTH},
     shader::glsl::{FragmentProgram, Vec3},
 };
+
+/// A tile's side as the fragment list counts pixels.
+#[expect(clippy::cast_possible_truncation, reason = "a tile is 64 pixels wide")]
+const TILE_SIDE: u16 = TILE as u16;
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
@@ -50,14 +55,18 @@ impl FragmentList {
         self.primitives.clear();
     }
 
-    /// Adds the pixels of a tile with one sample whose visible primitive is in `handles`.
-    pub(super) fn add_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
+    /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`.
+    pub(super) fn list_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
+        self.pixels.resize(visible.len(), 0);
+        self.primitives.resize(visible.len(), 0);
+        let mut len = 0;
         for (pixel, &primitive) in (0..).zip(visible) {
-            if handles.contains(&primitive) {
-                self.pixels.push(pixel);
-                self.primitives.push(primitive);
-            }
+            // Written always and kept only if it is one: no branch to mispredict.
+            (self.pixels[len], self.primitives[len]) = (pixel, primitive);
+            len += usize::from(handles.contains(&primitive));
         }
+        self.pixels.truncate(len);
+        self.primitives.truncate(len);
     }
 
     /// Adds the primitives that the samples of a pixel see, each once.
@@ -126,8 +135,8 @@ fn varyings<L: Lane, const N: usize>(
         return result;
     }
     let [x0, y0] = input.origin.map(<L::Double as Lane>::splat);
-    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE as u16));
-    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE as u16));
+    let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
+    let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
     let mut previous = 0;
     for (i, &primitive) in primitives.iter().enumerate() {
         if primitive == previous || primitives[..i].contains(&primitive) {

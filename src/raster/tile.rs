@@ -131,6 +131,8 @@ fn depth_test(
 ) {
     for i in 0..WIDTH {
         let z = (row_depth + column_depth * (window_x + i as f64)) as f32;
+        // A sample may lie outside of the unsnapped corners, and the plane there below 0.
+        let z = if z < 0.0 { 0.0 } else { z };
         let pass = (edges[i] >= 0) & (z < depths[i]);
         depths[i] = if pass { z } else { depths[i] };
         visible[i] = if pass { handle } else { visible[i] };

@@ -1,13 +1,14 @@
 //! Every key of a scene file: one line each, with its default and what it must be.
 
+use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
-use super::names::{DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
+use super::names::{CONTACTS, DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::reader::Object;
 use super::scalar::{Choice, Coded, Count, Flag, Name, Number};
 use super::{
-    Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision, Render,
-    Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision,
+    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
 };
 
 /// The sample counts of `render.samples`.
@@ -17,7 +18,7 @@ const ORIENTATIONS: &[(i64, Orientation)] = &[(0, Orientation::Horizontal), (1, 
 /// Most points along one side of a cloth; `checks.rs` limits their product.
 const SIDE: Count = Count(2, 1 << 21);
 /// Latitude and longitude counts whose triangles can still be numbered in 24 bits.
-const RESOLUTION: Counts = Counts([Count(2, 2048), Count(3, 2048)]);
+const RESOLUTION: Counts = Counts([Count(2, MAX_RESOLUTION), Count(3, MAX_RESOLUTION)]);
 /// Fields of view whose tangent is neither 0 nor infinite in binary32.
 const FIELD_OF_VIEW: Number = Number(from_to(0.001, 179.999).unit("degrees"));
 /// Width and height of a picture.
@@ -99,6 +100,7 @@ fn sim(at: &mut Object) -> Sim {
         stretch_limit: at.optional("stretch_limit", Some(0.1), OrNull(Number(NOT_NEGATIVE))),
         stretch_passes: at.optional("stretch_passes", 1, Count(1, 1_000_000)),
         self_collision: at.optional("self_collision", SelfCollision::SameBox, Choice(SELF_COLLISIONS)),
+        contact: at.optional("contact", Contact::Report, Choice(CONTACTS)),
     }
 }
 

@@ -111,8 +111,8 @@ pub enum Exponent {
 impl Exponent {
     /// Classifies a number ≥ 0.
     pub fn of(value: f32) -> Self {
-        // 2^24: above it, every f32 is whole, but the squaring would only give 0 or 1 anyway.
-        if value.fract() == 0.0 && value <= 16_777_216.0 {
+        // The largest f32 that a u32 holds.
+        if value.fract() == 0.0 && value <= 4_294_967_040.0 {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]
             Self::Whole(value as u32)
         } else {

@@ -1,8 +1,9 @@
 //! Texture lookup: nearest and bilinear, REPEAT on pictures, CLAMP_TO_EDGE within a cube face.
 //!
 //! Bilinear weights are exact: x = u·w - 0.5, i = floor(x), f = x - i, then mix along x and y.
-//! A lookup in f32 is within 2^-22 of the same formula in f64 for texture coordinates in -1..=2
-//! and textures up to 1024 texels wide (tested).
+//! For texture coordinates in -1..=2, a lookup in f32 is within (w + h + 2)·2⁻²² of the same formula
+//! in f64: that is what the rounding of u·w - 0.5 can move the weights by. It is exact for
+//! coordinates in 0..=2 where both sides are powers of two, and what is left is 2⁻²¹ (tested).
 
 use super::glsl::{Vec3, dot, vec3};
 use crate::{
@@ -65,8 +66,10 @@ fn cube_face<L: Lane>(r: Vec3<L>) -> (L, L, L) {
     let on_z = |z: L, other: L| az.select_less(ma, other, z);
     (face, sc, tc, ma) = (on_z(z_face, face), on_z(z_sc, sc), on_z(-r.y, tc), on_z(az, ma));
     let half = L::splat(0.5);
-    let coordinate = |c: L| zero.select_less(ma, (c / ma + L::splat(1.0)) * half, half);
-    (zero.select_less(dot(r, r), face, zero), coordinate(sc), coordinate(tc))
+    let length = dot(r, r);
+    let or_middle = |value: L, middle: L| zero.select_less(length, value, middle);
+    let coordinate = |c: L| or_middle((c / ma + L::splat(1.0)) * half, half);
+    (or_middle(face, zero), coordinate(sc), coordinate(tc))
 }
 
 /// Filters `fetch(lane, i, j)` around (u·w, v·h).

@@ -20,6 +20,7 @@ pub(crate) fn repository() -> PathBuf {
 pub(crate) fn draw(case: Case, threads: usize, file: &Path) -> Result<Pixels, String> {
     let (_, scene, arguments) = case;
     let output = Command::new(assert_cmd::cargo::cargo_bin!("drape"))
+        .current_dir(repository())
         .arg("render")
         .arg(repository().join("scenes").join(scene))
         .arg(file)
