@@ -1,15 +1,19 @@
 //! One simulation: the state of a cloth and the step that moves it on.
 
+mod guarded;
 mod locate;
+mod stopwatch;
 
-use std::time::Instant;
+pub use stopwatch::Timings;
+
+use stopwatch::Stopwatch;
 
 use crate::cloth::collide::Objects;
 use crate::cloth::contact::Outside;
 use crate::cloth::energy::Energy;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
-use crate::cloth::guard::{Allowance, Budget, first_lost};
+use crate::cloth::guard::{Allowance, Budget};
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
 use crate::cloth::neighbors::Neighbors;
@@ -67,21 +71,6 @@ pub struct Unresolved {
     pub fall: f64,
     /// Distance of two neighbouring numbers at the position, in metres.
     pub rounding: f64,
-}
-
-/// Wall time spent in each phase since the start, in nanoseconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub struct Timings {
-    /// Phase 1: weight and springs.
-    pub forces: u64,
-    /// Phase 2: Verlet's scheme.
-    pub verlet: u64,
-    /// Phase 3: close points of the cloth.
-    pub self_collision: u64,
-    /// Phase 4: planes and spheres.
-    pub objects: u64,
-    /// Phase 5: springs that are too long.
-    pub stretch_limit: u64,
 }
 
 impl Simulation {
@@ -297,35 +286,6 @@ impl State {
         }
     }
 
-    /// Takes the state as the start that the energy is held against.
-    fn set_budget(&mut self) {
-        let energy = Energy::new(&self.x, &self.last, &self.springs, &self.constants);
-        self.budget = self.allowance.budget(&self.x, energy, &self.constants);
-    }
-
-    /// Notes the state before a frame, for the search after a failure.
-    fn note_frame_start(&mut self) {
-        let [x, last] = &mut self.frame_start;
-        x.copy_from(&self.x);
-        last.copy_from(&self.last);
-    }
-
-    /// The state before the frame.
-    fn at_frame_start(&self) -> Self {
-        let [x, last] = self.frame_start.clone();
-        Self { x, last, ..self.clone() }
-    }
-
-    /// The energies of motion and height.
-    fn motion_and_height(&self) -> Energy {
-        Energy::without_springs(&self.x, &self.last, &self.constants)
-    }
-
-    /// Whether all positions are in range and, if `guarded`, the energy is.
-    fn is_sound(&self, guarded: bool) -> bool {
-        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
-    }
-
     /// One step of the method. The phases after Verlet's change positions and never `last`.
     fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
         let Self { constants, pins, springs, x, last, forces, recorder, .. } = self;
@@ -386,28 +346,5 @@ impl State {
             stopwatch.lap(|timings| &mut timings.objects);
             book(x, last, |ledger| &mut ledger.spheres);
         }
-    }
-}
-
-/// Takes the time of the phases, when it was asked to.
-#[derive(Clone, Debug, Default)]
-struct Stopwatch {
-    timings: Option<Timings>,
-    since: Option<Instant>,
-}
-
-impl Stopwatch {
-    /// Starts a lap.
-    fn start(&mut self) {
-        self.since = self.timings.map(|_| Instant::now());
-    }
-
-    /// Ends a lap, adds it to the phase that `phase` picks, and starts the next.
-    fn lap(&mut self, phase: impl Fn(&mut Timings) -> &mut u64) {
-        let (Some(timings), Some(since)) = (&mut self.timings, &mut self.since) else { return };
-        let now = Instant::now();
-        let nanoseconds = now.duration_since(*since).as_nanos();
-        *phase(timings) += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
-        *since = now;
     }
 }

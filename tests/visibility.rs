@@ -36,7 +36,7 @@ proptest! {
 fn ids_name_the_object_and_its_primitive() {
     let canvas = Canvas::new(4, 4);
     let far = [cover(0.5), cover(0.75)].concat();
-    let line = [[-1.0, -0.25, 0.25, 1.0], [1.0, -0.25, 0.25, 1.0]];
+    let line = [[-1.0, -0.2, 0.25, 1.0], [1.0, -0.2, 0.25, 1.0]];
     let both = Primitives::Triangles(&[[3, 4, 5], [0, 1, 2]]);
     let picture = canvas.draw(&[
         flat(both, &far, [1.0, 0.0, 0.0]),

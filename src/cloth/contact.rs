@@ -102,7 +102,7 @@ mod tests {
         x.set(0, Vec3::new(0.0, 0.9, 0.0));
         x.set(1, Vec3::new(0.0, -3.0, 0.0));
         x.set(2, Vec3::new(0.0, 1.25, 0.0));
-        let pins = Pins { pinned: vec![false; 5], free: vec![0..5] };
+        let pins = Pins { pinned: vec![false; 5], free: vec![0..2, 2..5] };
         let mut counters = Counters::default();
         outside.leave_planes(&mut x, &pins, &mut counters);
         outside.leave_spheres(&mut x, &pins, &mut counters);

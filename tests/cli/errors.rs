@@ -172,13 +172,13 @@ fn the_advice_before_the_first_step_holds() {
         let rest = refused.stderr.split(text).nth(1).expect(text);
         rest.split([',', ';', '\n']).next().unwrap().trim().parse().unwrap()
     };
-    let (steps, softer) = (number("to at least ") as u32, number("lower ks below "));
+    let (steps, softer) = (number("to at least "), number("lower ks below "));
     for (ks, steps, code, warns) in [
-        (4e7, steps - 1, 5, false),
+        (4e7, steps - 1.0, 5, false),
         (4e7, steps, 0, true),
-        (softer, 30, 0, true),
-        (1.002 * softer, 30, 5, false),
-        (softer / 3.0, 30, 0, false),
+        (softer, 30.0, 0, true),
+        (1.002 * softer, 30.0, 5, false),
+        (softer / 3.0, 30.0, 0, false),
     ] {
         let ran = run([&format!("cloth.ks={ks}"), &format!("sim.steps_per_frame={steps}")]);
         assert_eq!(ran.code, Some(code), "ks {ks}, {steps} steps: {}", ran.stderr);
