@@ -306,6 +306,14 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
 }
 
 #[test]
+fn a_picture_larger_than_memory_is_3() {
+    let scratch = Scratch::new();
+    let large = ["render", "small.json", "out.png", "--size", "16384x16384", "--samples", "4"];
+    let (error, _) = fails(&scratch, &large, 3, "scene");
+    assert!(error["help"].as_str().is_some_and(|help| help.contains("268435456")), "{error}");
+}
+
+#[test]
 fn a_camera_in_its_target_is_3() {
     let scratch = Scratch::new();
     let far = ["--set", "camera.target=[0,0,1e15]", "--set", "camera.distance=0.01"];
