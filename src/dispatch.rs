@@ -13,9 +13,17 @@ pub(crate) trait Work {
     fn run(self);
 }
 
+/// Tests set it to compare the two copies.
+#[cfg(test)]
+pub(crate) static BASELINE_ONLY: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
+
 /// Runs `work`, compiled for AVX2 where the CPU has it.
 #[inline]
 pub(crate) fn dispatch(work: impl Work) {
+    #[cfg(test)]
+    if BASELINE_ONLY.load(std::sync::atomic::Ordering::Relaxed) {
+        return work.run();
+    }
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the CPU was just found to have AVX2, the only feature that `avx2` adds.

@@ -17,7 +17,11 @@ use rayon::prelude::*;
 const PICTURES: &[Case] = &[
     ("part5-phong-full", "sphere.json", "--patch scenes/look/draped.json --size 256x200"),
     ("ball-texture", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader texture"),
-    ("ball-bump", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader bump"),
+    (
+        "ball-bump",
+        "sphere.json",
+        "--patch scenes/look/ball.json --size 160x125 --shader bump --set material.normal_scaling=100",
+    ),
     (
         "ball-displacement",
         "sphere.json",
@@ -26,19 +30,23 @@ const PICTURES: &[Case] = &[
     ("ball-mirror", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader mirror"),
     ("ball-custom", "sphere.json", "--patch scenes/look/ball.json --size 160x125 --shader custom"),
     ("ball-nearest", "sphere.json", NEAREST),
-    ("sphere-samples", "sphere.json", "--time 1 --size 192x150 --samples 4"),
-    ("sphere-custom", "sphere.json", "--time 1 --size 160x125 --shader custom"),
+    ("sphere-samples", "sphere.json", "--patch scenes/look/draped.json --time 1 --size 192x150 --samples 4"),
+    (
+        "sphere-custom",
+        "sphere.json",
+        "--patch scenes/look/draped.json --time 1 --size 160x125 --shader custom",
+    ),
     (
         "pinned2-wireframe",
         "pinned2.json",
-        "--frame 0 --size 192x150 --shader wireframe --set camera.polar=30",
+        "--time 0.4 --size 256x200 --shader wireframe --springs structural --set camera.polar=60",
     ),
     ("pinned4-normal", "pinned4.json", "--time 0.5 --size 192x150 --shader normal --set camera.polar=60"),
-    ("plane-texture", "plane.json", "--time 1 --size 160x125 --shader texture --set camera.polar=50"),
+    ("plane-texture", "plane.json", "--time 1 --size 112x88 --shader texture --set camera.polar=50"),
     (
         "selfCollision-normal",
         "selfCollision.json",
-        "--time 0.8 --size 192x150 --shader normal --set camera.azimuth=40",
+        "--time 0.3 --size 192x150 --shader normal --set camera.azimuth=40",
     ),
 ];
 

@@ -2,7 +2,6 @@
 //! table and CLAMP_TO_EDGE on cube maps.
 
 #![expect(clippy::cast_possible_truncation, reason = "texel indices and colours are small")]
-#![expect(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 mod support;
 
@@ -18,17 +17,10 @@ use drape::{
     texture::Texture,
 };
 use proptest::prelude::*;
-use support::cases;
-
-/// Texels of noise, different in each channel.
-fn noise(width: usize, height: usize, seed: u64) -> Texture {
-    let texel = |i: u64| {
-        let [r, g, b, ..] = splitmix64(splitmix64(seed) ^ i).to_le_bytes();
-        [r, g, b].map(|c| f32::from(c) / 255.0)
-    };
-    let texels: Vec<[f32; 3]> = (0..(width * height) as u64).map(texel).collect();
-    Texture::from_rgb(width, height, &texels).unwrap()
-}
+use support::{
+    cases,
+    shaders::{cube, noise},
+};
 
 fn lanes<L: Lane>(color: Vec3<L>) -> [f64; 3] {
     [color.x, color.y, color.z].map(|channel| channel.lane(0))
@@ -149,12 +141,6 @@ fn face([x, y, z]: [f64; 3]) -> (usize, f64, f64) {
     (face, (sc / longest + 1.0) / 2.0, (tc / longest + 1.0) / 2.0)
 }
 
-fn cube(size: usize, face: impl FnMut(usize) -> Texture) -> Cubemap {
-    let faces = std::array::from_fn(face);
-    assert!(faces.iter().all(|texture| texture.width() == size));
-    Cubemap::new("test", faces).unwrap()
-}
-
 fn look(cubemap: &Cubemap, filter: Filter, [x, y, z]: [f32; 3]) -> [f64; 3] {
     lanes(texture_cube(SamplerCube { cubemap, filter }, vec3(x, y, z)))
 }
@@ -168,7 +154,7 @@ proptest! {
         directions in prop::collection::vec(prop::array::uniform3(prop_oneof![-1.0..=1.0_f32, (-2..=2_i8).prop_map(f32::from)]), 500),
         seed in any::<u64>(),
     ) {
-        let map = cube(size, |i| noise(size, size, seed ^ i as u64));
+        let map = cube(|i| noise(size, size, seed ^ i as u64));
         // The coordinate has three roundings more than that of a picture.
         let bound = (4 * size + 2) as f64 * ROUNDING;
         for direction in directions.into_iter().filter(|direction| *direction != [0.0; 3]) {
@@ -184,7 +170,7 @@ proptest! {
 #[test]
 fn ties_go_to_z_before_y_before_x() {
     let flat = |i: usize| Texture::from_rgb(1, 1, &[[i as f32, 0.0, 0.0]]).unwrap();
-    let map = cube(1, flat);
+    let map = cube(flat);
     for code in (0..27).filter(|&code| code != 13) {
         let direction = [code % 3, code / 3 % 3, code / 9].map(|c| c as f32 - 1.0);
         let expected = match direction {
@@ -214,7 +200,7 @@ fn every_direction_finds_itself() {
         4 => [s, -t, 1.0],
         _ => [-s, -t, -1.0],
     };
-    let map = cube(size, |face| {
+    let map = cube(|face| {
         let texels: Vec<[f32; 3]> = (0..size * size)
             .map(|i| {
                 let [s, t] = [i % size, i / size].map(|k| (k as f64 + 0.5) / (size as f64 / 2.0) - 1.0);
@@ -235,7 +221,7 @@ fn every_direction_finds_itself() {
 
 #[test]
 fn no_direction_at_all_reads_the_middle_of_the_first_face() {
-    let map = cube(8, |i| noise(8, 8, i as u64));
+    let map = cube(|i| noise(8, 8, i as u64));
     for filter in [Filter::Nearest, Filter::Bilinear] {
         let middle = lanes(texture(Sampler2d { texture: &map.faces()[0], filter }, 0.5_f32, 0.5_f32));
         for bad in [[0.0; 3], [-0.0; 3], [f32::NAN; 3], [1.0, f32::NAN, 0.0], [f32::NAN, 0.0, 1.0]] {

@@ -19,6 +19,7 @@ mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod table;
 mod ui;
 
 use std::process::ExitCode;

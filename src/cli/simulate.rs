@@ -5,13 +5,17 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::advance::{advance, start};
-use super::scene::{Leniency, SceneArgs, frame_at, seconds};
+use super::advance::{Until, advance_until, start};
+use super::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
+use super::table::Table;
 use super::{Session, counts, outputs};
 use crate::cloth::Counters;
+use crate::cloth::energy::Energy;
+use crate::cloth::ledger::Ledger;
 use crate::error::Result;
 use crate::output::atomic::{self, Content};
 use crate::output::raw;
+use crate::scene::Scene;
 use crate::simulation::{Simulation, Timings};
 
 /// What `simulate` takes.
@@ -25,9 +29,15 @@ pub(super) struct Args {
     /// Number of frames
     #[arg(long, value_name = "N")]
     frames: Option<u64>,
+    /// Go on until the cloth is at rest, at most to --time or --frames (default: 60 s); exit code 1 if it is not
+    #[arg(long)]
+    until_rest: bool,
     /// Write the last positions: x y z of each point, row by row, f64 little-endian (`-` = standard output)
     #[arg(long, value_name = "FILE")]
     positions: Option<PathBuf>,
+    /// Write a row a frame: time, energies, what each phase put in or took out, extremes (`-` = standard output)
+    #[arg(long, value_name = "FILE", conflicts_with = "bench")]
+    csv: Option<PathBuf>,
     /// Print the number and the state hash of each frame instead of a summary
     #[arg(long)]
     hash: bool,
@@ -47,6 +57,11 @@ struct Summary {
     springs: usize,
     state_hash: String,
     counters: Counters,
+    /// The energies at the end, in J.
+    energy: Energy,
+    /// What each phase put in over the whole run, in J, if a table was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ledger: Option<Ledger>,
     /// The state hash of each frame from 0, if asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     hashes: Vec<String>,
@@ -66,15 +81,25 @@ struct Bench {
 /// Simulates, writes the positions, prints the result.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
-    let frames = args.frames.unwrap_or_else(|| frame_at(args.time, &scene));
+    let until = args.until(&scene);
     args.check_outputs(session)?;
-    let mut simulation = start(&scene, frames, args.leniency.allow_unstable, session)?;
+    let mut simulation = start(&scene, until.frames, args.leniency.allow_unstable, session)?;
     if args.bench {
         simulation.record_timings();
     }
+    let mut table = args.csv.is_some().then(Table::new);
+    if table.is_some() {
+        simulation.record_ledger()?;
+    }
     let mut hashes = Vec::new();
-    let elapsed = advance(&mut simulation, frames, session, |now| args.take_hash(now, session, &mut hashes))?;
+    let elapsed = advance_until(&mut simulation, &scene, until, session, |now| {
+        table.iter_mut().for_each(|table| table.row(now));
+        args.take_hash(now, session, &mut hashes)
+    })?;
     args.write_positions(&simulation)?;
+    if let (Some(path), Some(table)) = (&args.csv, &table) {
+        atomic::write(path, table.text().as_bytes())?;
+    }
     let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
     if args.bench {
         session.print_json(&bench(&simulation, springs, elapsed))
@@ -87,14 +112,20 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    fn until(&self, scene: &Scene) -> Until {
+        let time = self.time.or(self.until_rest.then_some(REST_TIME));
+        Until { frames: self.frames.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
+    }
+
     fn check_outputs(&self, session: &Session) -> Result<()> {
         outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
         let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));
-        outputs::check(&self.scene.inputs(), positions)
+        let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
+        outputs::check(&self.scene.inputs(), positions.chain(csv))
     }
 
     fn fills_stdout(&self) -> bool {
-        outputs::takes_stdout(&[&self.positions])
+        outputs::takes_stdout(&[&self.positions, &self.csv])
     }
 
     /// Prints the hash of a frame at once, or keeps it where all are printed as one object.
@@ -125,18 +156,29 @@ fn summary(simulation: &Simulation, springs: usize, hashes: Vec<String>) -> Summ
         springs,
         state_hash: hex(simulation.state_hash()),
         counters: simulation.counters(),
+        energy: simulation.energy(),
+        ledger: simulation.ledger(),
         hashes,
     }
 }
 
 impl Summary {
     fn text(&self) -> String {
-        let Self { frames, time, points, springs, state_hash, counters, .. } = self;
+        let Self { frames, time, points, springs, state_hash, counters, energy, .. } = self;
+        let Energy { kinetic, spring, gravitational } = energy;
+        let entries = self.ledger.map(Ledger::entries).into_iter().flatten();
+        let ledger: String =
+            entries.map(|(name, joule)| format!("  by {name:15} {joule:+.6e} J\n")).collect();
         format!(
             "frames       {frames}\nsteps        {}\ntime         {time} s\npoints       {points}\n\
              springs      {springs}\ncollisions   {} with objects, {} of the cloth with itself\n\
-             shortened    {} springs\nstate hash   {state_hash}\n",
-            counters.steps, counters.object_moves, counters.self_collision_moves, counters.springs_limited,
+             shortened    {} springs\nenergy       {:.6e} J = kinetic {kinetic:.6e}, spring {spring:.6e}, \
+             gravitational {gravitational:.6e}\n{ledger}state hash   {state_hash}\n",
+            counters.steps,
+            counters.object_moves,
+            counters.self_collision_moves,
+            counters.springs_limited,
+            energy.total(),
         )
     }
 }

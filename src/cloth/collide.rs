@@ -6,7 +6,7 @@ use super::{Counters, Points, dot, len};
 use crate::scene::{Plane, Scene, Sphere, Vec3};
 
 /// Height above a plane at which a point is put back, in metres.
-const SURFACE_OFFSET: f64 = 1e-4;
+pub(crate) const SURFACE_OFFSET: f64 = 1e-4;
 
 /// The objects of a scene, ready for the step.
 #[derive(Clone, Debug)]
@@ -24,28 +24,43 @@ impl Objects {
         (!planes.is_empty() || !spheres.is_empty()).then_some(Self { planes, spheres })
     }
 
-    /// Resolves the contacts of every unpinned point in index order: the planes, then the spheres.
-    pub(crate) fn collide(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
-        for run in &pins.free {
-            for p in run.clone() {
-                let (mut point, last) = (x.get(p), last.get(p));
-                for plane in &self.planes {
-                    if let Some(hit) = hit_plane(point, last, plane) {
-                        point = hit;
-                        counters.object_moves += 1;
-                    }
-                }
-                for sphere in &self.spheres {
-                    if let Some(hit) = hit_sphere(point, last, sphere) {
-                        point = hit;
-                        counters.object_moves += 1;
-                    }
-                }
-                x.set(p, point);
-            }
+    /// Resolves the contacts of every unpinned point with the planes. A point's contacts depend
+    /// on that point alone, so all planes may come before all spheres.
+    pub(crate) fn collide_planes(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
+        for plane in &self.planes {
+            collide(x, last, pins, counters, |x, last| hit_plane(x, last, plane));
         }
-        counters.object_tests += pins.free_points() * (self.planes.len() + self.spheres.len()) as u64;
     }
+
+    /// Resolves the contacts of every unpinned point with the spheres.
+    pub(crate) fn collide_spheres(
+        &self,
+        x: &mut Points,
+        last: &Points,
+        pins: &Pins,
+        counters: &mut Counters,
+    ) {
+        for sphere in &self.spheres {
+            collide(x, last, pins, counters, |x, last| hit_sphere(x, last, sphere));
+        }
+    }
+}
+
+/// Moves every unpinned point to where `hit` says that it ends, if it does.
+fn collide(
+    x: &mut Points,
+    last: &Points,
+    pins: &Pins,
+    counters: &mut Counters,
+    hit: impl Fn(Vec3, Vec3) -> Option<Vec3>,
+) {
+    for p in pins.free.iter().cloned().flatten() {
+        if let Some(point) = hit(x.get(p), last.get(p)) {
+            x.set(p, point);
+            counters.object_moves += 1;
+        }
+    }
+    counters.object_tests += pins.free_points();
 }
 
 /// Where a point that moved from `last` to `x` ends after it met `plane` (unit normal), if it did.

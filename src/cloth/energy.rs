@@ -19,7 +19,12 @@ pub struct Energy {
 impl Energy {
     /// The energies of points at `x` that were at `last` one step ago.
     pub fn new(x: &Points, last: &Points, springs: &Springs, constants: &Constants) -> Self {
-        let mut energy = Self { spring: spring_energy(x, springs), ..Self::default() };
+        Self { spring: spring_energy(x, springs), ..Self::without_springs(x, last, constants) }
+    }
+
+    /// The same, but nothing for the springs.
+    pub(crate) fn without_springs(x: &Points, last: &Points, constants: &Constants) -> Self {
+        let mut energy = Self::default();
         for p in 0..x.len() {
             let velocity = (x.get(p) - last.get(p)) / constants.dt;
             energy.kinetic += 0.5 * constants.mass * dot(velocity, velocity);
@@ -35,7 +40,7 @@ impl Energy {
 }
 
 /// The energy of all springs at `x`.
-fn spring_energy(x: &Points, springs: &Springs) -> f64 {
+pub(crate) fn spring_energy(x: &Points, springs: &Springs) -> f64 {
     let mut energy = 0.0;
     for family in &springs.families {
         for a in family.points(springs.grid) {

@@ -23,6 +23,17 @@ pub enum SpringKind {
     Bending,
 }
 
+impl SpringKind {
+    /// What scenes and messages call springs of this kind.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Structural => "structural",
+            Self::Shearing => "shearing",
+            Self::Bending => "bending",
+        }
+    }
+}
+
 /// How many families of springs there are.
 pub const FAMILIES: usize = 6;
 

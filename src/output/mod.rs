@@ -3,6 +3,7 @@
 
 pub mod atomic;
 pub mod compare;
+pub mod csv;
 pub mod html;
 pub mod obj;
 pub mod png;

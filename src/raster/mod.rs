@@ -10,6 +10,8 @@ mod clip;
 mod framebuffer;
 mod line;
 mod resolve;
+#[cfg(test)]
+mod same_bits;
 mod samples;
 mod setup;
 mod shade;

@@ -38,7 +38,9 @@ pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) ->
         cost.fragments += list.len as u64;
     }
     for (color, sum) in tile.color.iter_mut().zip(&sums) {
-        *color = store(*sum);
+        #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
+        let mean = sum.map(|channel| channel as f32);
+        *color = store(mean);
     }
     tile.ids.clear();
     if scene.ids {
@@ -130,7 +132,7 @@ struct WriteColors<'a> {
     tile: &'a mut Tile,
     list: &'a FragmentList,
     samples: usize,
-    sums: &'a mut [[f32; 3]],
+    sums: &'a mut [[f64; 3]],
 }
 
 impl Work for WriteColors<'_> {
@@ -144,25 +146,27 @@ impl Work for WriteColors<'_> {
             if samples == 1 {
                 tile.color[pixel] = store([r, g, b]);
             } else {
-                add(&mut sums[pixel], [r, g, b], f32::from(list.weights[i]) / samples as f32);
+                add(&mut sums[pixel], [r, g, b], f64::from(list.weights[i]) / samples as f64);
             }
         }
     }
 }
 
 /// Adds the background's share to the pixels' sums.
-fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f32; 3]]) {
+fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f64; 3]]) {
     let background = scene.background.map(clamp);
     for (pixel, sum) in sums.iter_mut().enumerate() {
         let free = samples_of(tile, scene, pixel).filter(|&handle| handle == 0).count();
         #[expect(clippy::cast_precision_loss, reason = "at most 16 samples")]
-        add(sum, background, free as f32 / scene.viewport.samples as f32);
+        add(sum, background, free as f64 / scene.viewport.samples as f64);
     }
 }
 
-fn add(sum: &mut [f32; 3], color: [f32; 3], share: f32) {
+/// Adds a share of a colour. In f64 the shares, of sixteenths, and their sums are exact, so that the
+/// mean of equal colours is that colour.
+fn add(sum: &mut [f64; 3], color: [f32; 3], share: f64) {
     for (sum, color) in sum.iter_mut().zip(color) {
-        *sum += color * share;
+        *sum += f64::from(color) * share;
     }
 }
 

@@ -17,17 +17,18 @@ pub(super) fn bumped_normal<L: Lane>(
     u_texture_2: Sampler2d<'_>,
     v_normal: Vec3<L>,
     v_tangent: Vec3<L>,
-    [s, t_]: [L; 2],
+    v_uv: [L; 2],
 ) -> Vec3<L> {
     let one = L::splat(1.0);
-    let h = |s: L, t: L| texture(u_texture_2, s, t).x;
+    let h = |u: L, v: L| texture(u_texture_2, u, v).x;
+    let [x, y] = v_uv;
     let n = normalize(v_normal);
     let t = normalize(v_tangent);
     let b = cross(n, t);
     let k = L::splat(u.u_height_scaling * u.u_normal_scaling);
-    let h0 = h(s, t_);
-    let d_u = (h(s + one / texels(u_texture_2.texture.width()), t_) - h0) * k;
-    let d_v = (h(s, t_ + one / texels(u_texture_2.texture.height())) - h0) * k;
+    let h0 = h(x, y);
+    let d_u = (h(x + one / texels(u_texture_2.texture.width()), y) - h0) * k;
+    let d_v = (h(x, y + one / texels(u_texture_2.texture.height())) - h0) * k;
     let local = normalize(vec3(-d_u, -d_v, one));
     normalize(t * local.x + b * local.y + n * local.z)
 }
@@ -40,7 +41,8 @@ pub fn fragment<'a, L: Lane>(
     let u = *u;
     move |&[x, y, z, nx, ny, nz, tx, ty, tz, s, t]| {
         let (v_position, v_normal, v_tangent) = (vec3(x, y, z), vec3(nx, ny, nz), vec3(tx, ty, tz));
-        let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, [s, t]);
+        let v_uv = [s, t];
+        let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, v_uv);
         blinn_phong(&u, v_position, n)
     }
 }

@@ -21,7 +21,8 @@ pub fn fragment<'a, L: Lane>(
     let u = *u;
     move |&[x, y, z, nx, ny, nz, tx, ty, tz, s, t]| {
         let (v_position, v_normal, v_tangent) = (vec3(x, y, z), vec3(nx, ny, nz), vec3(tx, ty, tz));
-        let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, [s, t]);
+        let v_uv = [s, t];
+        let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, v_uv);
         let a = texture(u_texture_1, s, t);
         let q = normalize(uniform::<L>(u.u_light_color));
         let to_light = uniform(u.u_light_pos) - v_position;

@@ -16,7 +16,10 @@ pub fn position_only(u: &Uniforms) -> impl Fn(&Attributes) -> VertexOutput<0> + 
 /// `v_uv`
 pub fn uv(u: &Uniforms) -> impl Fn(&Attributes) -> VertexOutput<2> + use<> {
     let u = *u;
-    move |a| (gl_position(&u, world_position(&u, a.in_position)), a.in_uv)
+    move |a| {
+        let v_uv = a.in_uv;
+        (gl_position(&u, world_position(&u, a.in_position)), v_uv)
+    }
 }
 
 /// `v_normal`
@@ -33,8 +36,8 @@ pub fn position_normal(u: &Uniforms) -> impl Fn(&Attributes) -> VertexOutput<6> 
     let u = *u;
     move |a| {
         let v_position = world_position(&u, a.in_position);
-        let [nx, ny, nz] = world_direction(&u, a.in_normal);
-        let [x, y, z] = v_position;
+        let v_normal = world_direction(&u, a.in_normal);
+        let ([x, y, z], [nx, ny, nz]) = (v_position, v_normal);
         (gl_position(&u, v_position), [x, y, z, nx, ny, nz])
     }
 }
@@ -48,9 +51,10 @@ pub fn all(u: &Uniforms) -> impl Fn(&Attributes) -> VertexOutput<11> + use<> {
 /// All varyings of a vertex whose model-space position is `position`.
 pub(super) fn all_at(u: &Uniforms, a: &Attributes, position: [f32; 3]) -> VertexOutput<11> {
     let v_position = world_position(u, position);
-    let [nx, ny, nz] = world_direction(u, a.in_normal);
-    let [tx, ty, tz] = world_direction(u, a.in_tangent);
-    let ([x, y, z], [s, t]) = (v_position, a.in_uv);
+    let v_normal = world_direction(u, a.in_normal);
+    let v_tangent = world_direction(u, a.in_tangent);
+    let v_uv = a.in_uv;
+    let ([x, y, z], [nx, ny, nz], [tx, ty, tz], [s, t]) = (v_position, v_normal, v_tangent, v_uv);
     (gl_position(u, v_position), [x, y, z, nx, ny, nz, tx, ty, tz, s, t])
 }
 

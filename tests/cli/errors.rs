@@ -144,7 +144,11 @@ fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
         &["export", "small.json", "out.obj"],
     ] {
         let (error, _) = fails(&scratch, &[command, &stiff].concat(), 5, "unstable");
-        assert!(error["error"].as_str().unwrap().contains("before the first step"), "{error}");
+        assert!(error["error"].as_str().unwrap().contains("before the first step: dt·ω = "), "{error}");
+        assert!(
+            error["help"].as_str().unwrap().starts_with("raise steps_per_frame from 30 to at least "),
+            "{error}"
+        );
         // The stretch limit would hold the points together.
         let allowed =
             [command, &stiff, &["--set", "sim.stretch_limit=null", "--allow-unstable", "-q"]].concat();
@@ -152,6 +156,39 @@ fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
         assert!(error["error"].as_str().unwrap().contains("at step"), "{error}");
     }
     scratch.succeed(&["simulate", "small.json", "--frames", "0", "--set", "cloth.ks=1e12"]);
+}
+
+/// A cloth a little over the bound at rest: what the message asks for is let run, with the warning
+/// that it is only stable at rest; what the worst case needs is let run without.
+#[test]
+fn the_advice_before_the_first_step_holds() {
+    let scratch = Scratch::new();
+    let run = |sets: [&str; 2]| {
+        scratch.run(&["simulate", "small.json", "--frames", "1", "--set", sets[0], "--set", sets[1]])
+    };
+    let refused = run(["cloth.ks=4e7", "sim.steps_per_frame=30"]);
+    assert_eq!(refused.code, Some(5));
+    let number = |text: &str| -> f64 {
+        let rest = refused.stderr.split(text).nth(1).expect(text);
+        rest.split([',', ';', '\n']).next().unwrap().trim().parse().unwrap()
+    };
+    let (steps, softer) = (number("to at least "), number("lower ks below "));
+    for (ks, steps, code, warns) in [
+        (4e7, steps - 1.0, 5, false),
+        (4e7, steps, 0, true),
+        (softer, 30.0, 0, true),
+        (1.002 * softer, 30.0, 5, false),
+        (softer / 3.0, 30.0, 0, false),
+    ] {
+        let ran = run([&format!("cloth.ks={ks}"), &format!("sim.steps_per_frame={steps}")]);
+        assert_eq!(ran.code, Some(code), "ks {ks}, {steps} steps: {}", ran.stderr);
+        assert_eq!(
+            ran.stderr.contains("may become unstable"),
+            warns,
+            "ks {ks}, {steps} steps: {}",
+            ran.stderr
+        );
+    }
 }
 
 #[test]
@@ -262,9 +299,18 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
     fs::create_dir_all(scratch.path("set/cube")).expect("folders");
     for texture in ["set/texture_1.png", "set/cube/posx.png"] {
         fs::write(scratch.path(texture), "not looked into").expect("a file");
-        fails(&scratch, &["render", "small.json", texture, "--textures", "set"], 2, "usage");
+        let arguments = ["render", "small.json", texture, "--textures", "set", "--shader", "custom"];
+        fails(&scratch, &arguments, 2, "usage");
         assert_eq!(scratch.read(texture), b"not looked into");
     }
+}
+
+#[test]
+fn a_picture_larger_than_memory_is_3() {
+    let scratch = Scratch::new();
+    let large = ["render", "small.json", "out.png", "--size", "16384x16384", "--samples", "4"];
+    let (error, _) = fails(&scratch, &large, 3, "scene");
+    assert!(error["help"].as_str().is_some_and(|help| help.contains("268435456")), "{error}");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 
 pub(crate) mod coverage;
 pub(crate) mod homogeneous;
+pub(crate) mod shaders;
 
 use std::sync::Mutex;
 

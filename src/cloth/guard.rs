@@ -1,0 +1,127 @@
+//! Whether a cloth in motion still does what its springs could do.
+//!
+//! Springs, gravity and damping never add energy, and the energy of springs is never negative. So
+//! `kinetic + gravitational <= total at the start` but for what is named here, and a run that
+//! breaks it was not moved by forces. It costs a pass over the points once a frame. The stretch
+//! limit hides a blow-up from every other check: it keeps strains at 10 % and all numbers finite.
+//!
+//! What is allowed on top, with M the mass of the cloth and g the size of gravity:
+//! - the error of the finite step: as much again as the motion and the springs held at the
+//!   start, `M g L / 2` for a cloth with sides of at most L, and `M (g dt)²`;
+//! - self-collision moves a point by at most `2 thickness / T` in a step, so at
+//!   `2 thickness fps`: `M (2 thickness fps)² / 2`, and the springs that it stretches to
+//!   `2 thickness`;
+//! - a plane puts a point [`SURFACE_OFFSET`] above it: `M (offset / dt)² / 2`;
+//! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
+//! - rounding.
+
+use super::collide::SURFACE_OFFSET;
+use super::energy::Energy;
+use super::springs::Springs;
+use super::{Constants, Points, len};
+use crate::scene::{Cloth, Scene, SelfCollision, Sphere};
+
+/// Largest coordinate, in metres: as large as any number that a scene may hold.
+pub(crate) const RANGE: f64 = 1e15;
+
+/// The part of the largest energy that rounding may add.
+const ROUNDING: f64 = 1e-9;
+
+/// What a scene's cloth may have on top of its energy at the start, whatever that start is.
+#[derive(Clone, Debug)]
+pub(crate) struct Allowance {
+    /// For the finite step, self-collision and planes, in J.
+    fixed: f64,
+    spheres: Vec<Sphere>,
+}
+
+impl Allowance {
+    /// The allowance of the cloth of `scene`, which has `springs`.
+    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, constants: &Constants) -> Self {
+        let Constants { mass, dt, .. } = *constants;
+        let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
+        let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
+        if scene.sim.self_collision != SelfCollision::Off {
+            let distance = 2.0 * cloth.thickness;
+            fixed += motion(all, distance / constants.steps_per_frame / dt) + stretched_to(distance, springs);
+        }
+        if !scene.planes.is_empty() {
+            fixed += motion(all, SURFACE_OFFSET / dt);
+        }
+        Self { fixed, spheres: scene.spheres.clone() }
+    }
+
+    /// The budget of a cloth that starts at `x` with `energy`.
+    pub(crate) fn budget(&self, x: &Points, energy: Energy, constants: &Constants) -> Budget {
+        let mut allowance = self.fixed + energy.kinetic + energy.spring;
+        for sphere in &self.spheres {
+            let depth = |p| (sphere.radius - len(x.get(p) - sphere.origin)).max(0.0);
+            allowance += (0..x.len()).map(|p| motion(constants.mass, depth(p) / constants.dt)).sum::<f64>();
+        }
+        Budget { start: energy.total(), allowance }
+    }
+}
+
+/// The kinetic energy of `mass` at `speed`, in J.
+fn motion(mass: f64, speed: f64) -> f64 {
+    0.5 * mass * speed * speed
+}
+
+/// The energy that a cloth may have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Budget {
+    /// Total energy at the start, in J.
+    start: f64,
+    /// What may come on top, in J.
+    allowance: f64,
+}
+
+impl Budget {
+    /// The most that points may have in motion and height together, in J, where the two are of
+    /// the sizes in `energy`.
+    pub(crate) fn limit(&self, energy: Energy) -> f64 {
+        let size = energy.kinetic + energy.gravitational.abs() + self.start.abs();
+        self.start + self.allowance + ROUNDING * size
+    }
+
+    /// Whether motion and height in `energy` are more than is allowed.
+    pub(crate) fn is_broken(&self, energy: Energy) -> bool {
+        energy.kinetic + energy.gravitational > self.limit(energy)
+    }
+}
+
+/// The energy of all springs that are shorter than `length` at rest, stretched to it, in J.
+fn stretched_to(length: f64, springs: &Springs) -> f64 {
+    let mut energy = 0.0;
+    for family in &springs.families {
+        for a in family.points(springs.grid) {
+            let strain = (length - family.rest[a]).max(0.0);
+            energy += 0.5 * family.stiffness * strain * strain;
+        }
+    }
+    energy
+}
+
+/// The first point with a coordinate that is no number or beyond [`RANGE`].
+pub(crate) fn first_lost(x: &Points) -> Option<usize> {
+    // A comparison with no number is false.
+    let is_there = |p: usize| x.get(p).iter().all(|component| component.abs() <= RANGE);
+    (0..x.len()).find(|&p| !is_there(p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_that_are_infinite_undefined_or_too_far_are_found() {
+        for bad in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1.001e15, -1e300] {
+            let mut points = Points::zeros(5).unwrap();
+            points.y[2] = RANGE;
+            assert_eq!(first_lost(&points), None, "all are in range");
+            points.z[3] = bad;
+            points.x[4] = bad;
+            assert_eq!(first_lost(&points), Some(3), "{bad}");
+        }
+    }
+}
