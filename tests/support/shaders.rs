@@ -77,6 +77,6 @@ pub(crate) fn fragment(i: u64) -> [f32; 11] {
     let mut v: [f32; 11] = std::array::from_fn(|k| random(11 * i + k as u64));
     // Turned towards the light and the camera more often than not.
     v[5] += 0.8;
-    v[9] = 2.0 * v[9];
+    v[9] *= 2.0;
     v
 }
