@@ -1,29 +1,35 @@
 //! One simulation: the state of a cloth and the step that moves it on.
 
+mod guarded;
 mod locate;
+mod stopwatch;
 
-use std::time::Instant;
+pub use stopwatch::Timings;
+
+use stopwatch::Stopwatch;
 
 use crate::cloth::collide::Objects;
+use crate::cloth::contact::Outside;
 use crate::cloth::energy::Energy;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
-use crate::cloth::guard::{Allowance, Budget, first_lost};
+use crate::cloth::guard::{Allowance, Budget};
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
+use crate::cloth::neighbors::Neighbors;
 use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Constants, Counters, Points, verlet};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 
 /// A scene in motion. Without a cloth it has zero points, and only its clock moves.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     steps_per_frame: u64,
-    dt: f64,
+    steps_per_second: f64,
     steps: u64,
     cloth: Option<State>,
     counters: Counters,
@@ -43,8 +49,10 @@ struct State {
     last: Points,
     forces: Forces,
     self_collision: Option<SelfCollision>,
+    neighbors: Option<Neighbors>,
     objects: Option<Objects>,
     stretch_limit: Option<StretchLimit>,
+    outside: Option<Outside>,
     recorder: Option<Recorder>,
     allowance: Allowance,
     budget: Budget,
@@ -52,19 +60,17 @@ struct State {
     frame_start: [Points; 2],
 }
 
-/// Wall time spent in each phase since the start, in nanoseconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub struct Timings {
-    /// Phase 1: weight and springs.
-    pub forces: u64,
-    /// Phase 2: Verlet's scheme.
-    pub verlet: u64,
-    /// Phase 3: close points of the cloth.
-    pub self_collision: u64,
-    /// Phase 4: planes and spheres.
-    pub objects: u64,
-    /// Phase 5: springs that are too long.
-    pub stretch_limit: u64,
+/// A position that a step is too short for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unresolved {
+    /// Column and row of the point.
+    pub point: (usize, usize),
+    /// The coordinate: 0, 1 or 2.
+    pub axis: usize,
+    /// What gravity adds to the displacement in a step, in metres.
+    pub fall: f64,
+    /// Distance of two neighbouring numbers at the position, in metres.
+    pub rounding: f64,
 }
 
 impl Simulation {
@@ -76,7 +82,7 @@ impl Simulation {
     pub fn new(scene: &Scene) -> Result<Self> {
         Ok(Self {
             steps_per_frame: u64::from(scene.sim.steps_per_frame),
-            dt: 1.0 / scene.sim.fps / f64::from(scene.sim.steps_per_frame),
+            steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
             steps: 0,
             cloth: State::new(scene)?,
             counters: Counters::default(),
@@ -132,6 +138,24 @@ impl Simulation {
         }
     }
 
+    /// The first free point whose position rounds away more than a hundredth of what gravity adds
+    /// to its displacement in a step, where `time` seconds of it would show.
+    pub fn unresolved(&self, time: f64) -> Option<Unresolved> {
+        let cloth = self.cloth.as_ref()?;
+        let Constants { weight, mass, dt, .. } = cloth.constants;
+        for p in cloth.pins.free.iter().cloned().flatten() {
+            let point = cloth.grid.column_row(p);
+            for (axis, x) in cloth.x.get(p).iter().enumerate() {
+                let (g, rounding) = ((weight[axis] / mass).abs(), f64::EPSILON * x.abs());
+                let fall = g * dt * dt;
+                if g > 0.0 && 0.5 * rounding > 0.01 * fall && 0.5 * g * time * time > rounding {
+                    return Some(Unresolved { point, axis, fall, rounding });
+                }
+            }
+        }
+        None
+    }
+
     /// Lets the energy of the cloth grow without an error; positions are still checked.
     pub fn allow_unstable(&mut self) {
         self.guarded = false;
@@ -149,7 +173,7 @@ impl Simulation {
 
     /// Simulated time since the start, in seconds.
     pub fn time(&self) -> f64 {
-        self.steps as f64 * self.dt
+        self.steps as f64 / self.steps_per_second
     }
 
     /// Where the points are, in metres.
@@ -171,7 +195,7 @@ impl Simulation {
     /// The extremes of the cloth; zero without a cloth.
     pub fn extremes(&self) -> Extremes {
         let Some(cloth) = &self.cloth else { return Extremes::default() };
-        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, self.dt)
+        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.constants.dt)
     }
 
     /// Keeps an energy ledger from now on. The cloth moves as without one, to the last bit.
@@ -233,7 +257,9 @@ impl State {
             last: grid::start(cloth, grid)?,
             forces: Forces::new(&springs)?,
             self_collision: SelfCollision::new(cloth, &scene.sim, grid, &x)?,
+            neighbors: Neighbors::new(cloth, &scene.sim, &x)?,
             objects: Objects::new(scene),
+            outside: Outside::new(scene, &x)?,
             stretch_limit: StretchLimit::new(&scene.sim, &springs)?,
             recorder: None,
             budget: Budget::default(),
@@ -242,37 +268,22 @@ impl State {
             springs,
             x,
         };
+        if scene.sim.start == Start::HalfStep {
+            state.start_half_step();
+        }
         state.set_budget();
         Ok(Some(state))
     }
 
-    /// Takes the state as the start that the energy is held against.
-    fn set_budget(&mut self) {
-        let energy = Energy::new(&self.x, &self.last, &self.springs, &self.constants);
-        self.budget = self.allowance.budget(&self.x, energy, &self.constants);
-    }
-
-    /// Notes the state before a frame, for the search after a failure.
-    fn note_frame_start(&mut self) {
-        let [x, last] = &mut self.frame_start;
-        x.copy_from(&self.x);
-        last.copy_from(&self.last);
-    }
-
-    /// The state before the frame.
-    fn at_frame_start(&self) -> Self {
-        let [x, last] = self.frame_start.clone();
-        Self { x, last, ..self.clone() }
-    }
-
-    /// The energies of motion and height.
-    fn motion_and_height(&self) -> Energy {
-        Energy::without_springs(&self.x, &self.last, &self.constants)
-    }
-
-    /// Whether all positions are in range and, if `guarded`, the energy is.
-    fn is_sound(&self, guarded: bool) -> bool {
-        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
+    /// Puts the last positions where points at rest would have been one step ago under the forces at
+    /// the start: `last = x + f dt² / (2 m)`.
+    fn start_half_step(&mut self) {
+        let Self { constants, pins, springs, x, last, forces, .. } = self;
+        forces.compute(x, springs, constants.weight, &mut Counters::default());
+        let half = 0.5 * constants.dt * constants.dt / constants.mass;
+        for p in pins.free.iter().cloned().flatten() {
+            last.set(p, x.get(p) + forces.sum.get(p) * half);
+        }
     }
 
     /// One step of the method. The phases after Verlet's change positions and never `last`.
@@ -305,6 +316,11 @@ impl State {
             stopwatch.lap(|timings| &mut timings.self_collision);
             book(x, last, |ledger| &mut ledger.self_collision);
         }
+        if let Some(neighbors) = &mut self.neighbors {
+            neighbors.apply(x, pins, counters);
+            stopwatch.lap(|timings| &mut timings.self_collision);
+            book(x, last, |ledger| &mut ledger.self_collision);
+        }
 
         // 4. Objects: points that went through a plane or into a sphere are put back.
         if let Some(objects) = &self.objects {
@@ -321,28 +337,14 @@ impl State {
             stopwatch.lap(|timings| &mut timings.stretch_limit);
             book(x, last, |ledger| &mut ledger.stretch_limit);
         }
-    }
-}
 
-/// Takes the time of the phases, when it was asked to.
-#[derive(Clone, Debug, Default)]
-struct Stopwatch {
-    timings: Option<Timings>,
-    since: Option<Instant>,
-}
-
-impl Stopwatch {
-    /// Starts a lap.
-    fn start(&mut self) {
-        self.since = self.timings.map(|_| Instant::now());
-    }
-
-    /// Ends a lap, adds it to the phase that `phase` picks, and starts the next.
-    fn lap(&mut self, phase: impl Fn(&mut Timings) -> &mut u64) {
-        let (Some(timings), Some(since)) = (&mut self.timings, &mut self.since) else { return };
-        let now = Instant::now();
-        let nanoseconds = now.duration_since(*since).as_nanos();
-        *phase(timings) += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
-        *since = now;
+        // Where the scene asks for it: points that the phases left inside an object leave it.
+        if let Some(outside) = &self.outside {
+            outside.leave_planes(x, pins, counters);
+            book(x, last, |ledger| &mut ledger.planes);
+            outside.leave_spheres(x, pins, counters);
+            stopwatch.lap(|timings| &mut timings.objects);
+            book(x, last, |ledger| &mut ledger.spheres);
+        }
     }
 }

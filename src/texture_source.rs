@@ -9,7 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::texture::Texture;
 
 /// Endings that are tried in a folder, in this order.
-const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
+pub(crate) const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
 
 /// Largest texture file, bytes.
 const MAX_FILE_BYTES: u64 = 1 << 29;

@@ -522,3 +522,12 @@ fn reading_stops_after_a_hundred_errors() {
     assert_eq!(found.diagnostics.len(), 101);
     assert_eq!(found.diagnostics[100].message, "stopped after 100 errors");
 }
+
+#[test]
+fn all_damping_per_second_is_an_error() {
+    let scene = |set: &[&str]| load("scenes/pinned2.json".as_ref(), &sets(set));
+    let error = scene(&["cloth.damping=100", "sim.damping=\"per_second\""]).unwrap_err();
+    assert!(error.to_string().contains("a damping of 100 % has no rate per second"), "{error}");
+    scene(&["cloth.damping=100"]).unwrap();
+    scene(&["cloth.damping=99.99", "sim.damping=\"per_second\""]).unwrap();
+}

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use drape::scene::{
-    Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Overrides, Plane, Precision,
-    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
+    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides, Plane,
+    Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
 };
 
 const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];
@@ -56,6 +56,7 @@ fn empty() -> Scene {
             stretch_limit: Some(0.1),
             stretch_passes: 1,
             self_collision: SelfCollision::SameBox,
+            contact: Contact::Report,
         },
         camera: Camera {
             target: None,
@@ -162,8 +163,8 @@ fn the_stock_files_hold_only_keys_of_the_original_format() {
 fn every_optional_key_is_read() {
     let text = r#"{
       "sim": {"fps": 30, "steps_per_frame": 5, "gravity": [1, 2, 3], "integrator": "verlet", "precision": "f64",
-              "start": "report", "damping": "per_step", "stretch_limit": null, "stretch_passes": 7,
-              "self_collision": "off"},
+              "start": "half_step", "damping": "per_second", "stretch_limit": null, "stretch_passes": 7,
+              "self_collision": "neighbors", "contact": "outside"},
       "camera": {"target": [1, 2, 3], "distance": 4, "polar": 5, "azimuth": -6, "hfov": 7, "vfov": 8, "near": 9,
                  "far": 10},
       "light": {"position": [1, 2, 3], "intensity": [4, 5, 6], "color": [0, 0, 7]},
@@ -196,7 +197,10 @@ fn every_optional_key_is_read() {
             gravity: v123,
             stretch_limit: None,
             stretch_passes: 7,
-            self_collision: SelfCollision::Off,
+            start: Start::HalfStep,
+            damping: Damping::PerSecond,
+            self_collision: SelfCollision::Neighbors,
+            contact: Contact::Outside,
             ..empty().sim
         },
         camera: Camera {

@@ -22,7 +22,7 @@ proptest! {
         let positions: Vec<[f32; 4]> = depths.iter().flat_map(|&z| cover(z)).collect();
         let triangles: Vec<[u32; 3]> = (0..).step_by(3).map(|i| [i, i + 1, i + 2]).take(depths.len()).collect();
         let nearest = depths.iter().copied().reduce(f32::min).unwrap();
-        let first = depths.iter().position(|&depth| depth == nearest).unwrap() as u32;
+        let first = (0..).zip(&depths).find(|&(_, &depth)| depth == nearest).unwrap().0;
         let picture = canvas.triangles(&positions, &triangles);
         prop_assert!(picture.ids.iter().all(|&id| id == (1 << 24) + first + 1));
         prop_assert!(picture.depth.iter().all(|&depth| depth == nearest * 0.5 + 0.5));

@@ -4,10 +4,11 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use super::progress::Progress;
+use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
 /// blow up is refused, unless that is allowed.
@@ -25,6 +26,9 @@ pub(super) fn start(
         simulation.allow_unstable();
     }
     if let Some(cloth) = scene.cloth.as_ref().filter(|_| frames > 0) {
+        if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
+            return Err(error);
+        }
         let stability = Stability::new(cloth, &scene.sim)?;
         if stability.is_unstable_at_rest() {
             let error = certain(&stability, cloth.ks, scene.sim.steps_per_frame);
@@ -39,17 +43,33 @@ pub(super) fn start(
     Ok(simulation)
 }
 
+/// The error of a step that is too short for numbers to tell its two ends apart.
+fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
+    let Unresolved { point: (i, j), axis, fall, rounding } = simulation.unresolved(time)?;
+    let axis = ["x", "y", "z"][axis];
+    let message = format!(
+        "stuck before the first step: gravity moves point ({i}, {j}) by {fall:.3e} m along {axis} in a step, \
+         and its position is rounded to {rounding:.3e} m"
+    );
+    let help =
+        "lower steps_per_frame or fps, or bring the cloth nearer to the origin; --allow-unstable runs on";
+    Some(Error::new(Kind::Unstable, message).with_help(help))
+}
+
 /// The error of a cloth that vibrates too fast even at rest.
 fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
-    let Stability { mass, dt, limit, omega_rest, .. } = *stability;
+    let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
         "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
     let fewest = stability.fewest_steps(omega_rest);
+    let safe = stability.fewest_steps(omega_safe);
     let softer = rounded_down(ks * (limit / (dt * omega_rest)) * (limit / (dt * omega_rest)));
     let help = format!(
-        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; --allow-unstable runs on"
+        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; {safe} hold in every \
+         configuration: --set sim.steps_per_frame={safe} (damping per step acts that much more often); \
+         --allow-unstable runs on"
     );
     Error::new(Kind::Unstable, message).with_help(help)
 }
@@ -79,29 +99,81 @@ fn rounded_down(value: f64) -> f64 {
     format!("{:.3e}", value * (1.0 - 5e-4)).parse().unwrap_or(value)
 }
 
-/// Moves `simulation` on to frame `frames`; `each` sees the start and every frame. Returns the
-/// wall time that took.
+/// Until when a cloth is moved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Until {
+    /// The last frame.
+    pub(super) frames: u64,
+    /// Whether the frame at which the cloth is at rest is the last one, and must come in time.
+    pub(super) rest: bool,
+}
+
+/// Moves the cloth of `scene` on to the last frame; `each` sees the start and every frame. A scene
+/// without a cloth is always at rest. Returns the wall time that took.
 ///
 /// # Errors
-/// Those of the simulation and of `each`, and [`crate::error::Kind::Signal`] between two frames.
-pub(super) fn advance(
+/// [`Kind::Difference`] when a cloth that has to is not at rest in time: it was checked, and
+/// found to move, though nothing failed. Otherwise those of the simulation and of `each`, and
+/// [`Kind::Signal`] between two frames.
+pub(super) fn advance_until(
     simulation: &mut Simulation,
-    frames: u64,
+    scene: &Scene,
+    until: Until,
     session: &Session,
     mut each: impl FnMut(&Simulation) -> Result<()>,
 ) -> Result<Duration> {
+    let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest) else {
+        let last = if until.rest { 0 } else { until.frames };
+        return advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true));
+    };
+    let mut watch = RestWatch::new(cloth, &scene.sim, simulation.positions())?;
+    let mut motion = None;
+    let elapsed = advance_while(simulation, until.frames, session, |simulation| {
+        each(simulation)?;
+        if simulation.frame() > 0 {
+            motion = Some(watch.look(simulation.positions()));
+        }
+        Ok(!motion.is_some_and(|motion| watch.is_rest(motion)))
+    })?;
+    match motion {
+        Some(motion) if watch.is_rest(motion) => Ok(elapsed),
+        _ => Err(no_rest(simulation, motion, watch.limit())),
+    }
+}
+
+/// The error of a cloth that still moves at the end.
+fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Error {
+    let does = motion.map_or_else(String::new, |motion| {
+        format!(
+            ": a point moves at {:.3e} m/s (at rest at most {:.3e}), the residual force is {:.3e} m/s² of its \
+             mass (at most {:.3e})",
+            motion.speed, limit.speed, motion.residual, limit.residual,
+        )
+    });
+    let message = format!("not at rest after {} frames, {} s{does}", simulation.frame(), simulation.time());
+    Error::new(Kind::Difference, message).with_help("give it more time with --time, or more damping")
+}
+
+/// Moves `simulation` on to frame `frames` while `each`, which sees the start and every frame, says
+/// so. Returns the wall time that took.
+fn advance_while(
+    simulation: &mut Simulation,
+    frames: u64,
+    session: &Session,
+    mut each: impl FnMut(&Simulation) -> Result<bool>,
+) -> Result<Duration> {
     let started = Instant::now();
     let mut progress = Progress::new(&session.ui, "simulating", frames);
-    each(simulation)?;
-    while simulation.frame() < frames {
+    let mut goes_on = each(simulation)?;
+    while goes_on && simulation.frame() < frames {
         session.signals.check()?;
         simulation.advance_frame()?;
         progress.set(simulation.frame());
-        each(simulation)?;
+        goes_on = each(simulation)?;
     }
     drop(progress);
     session.signals.check()?;
     let elapsed = started.elapsed();
-    session.ui.remark(&format!("simulated {frames} frames in {:.3} s", elapsed.as_secs_f64()));
+    session.ui.remark(&format!("simulated {} frames in {:.3} s", simulation.frame(), elapsed.as_secs_f64()));
     Ok(elapsed)
 }

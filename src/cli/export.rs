@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::advance::{advance, start};
+use super::advance::{advance_until, start};
 use super::scene::{Moment, SceneArgs};
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
@@ -38,14 +38,14 @@ struct Summary {
 /// Simulates and writes the mesh.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
-    let frames = args.moment.frame(&scene);
+    let until = args.moment.until(&scene);
     outputs::check_ending(&args.mesh, "obj")?;
     outputs::check(&args.scene.inputs(), [(args.mesh.as_path(), Content::Text)])?;
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
     };
-    let mut simulation = start(&scene, frames, args.moment.leniency.allow_unstable, session)?;
-    advance(&mut simulation, frames, session, |_| Ok(()))?;
+    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
+    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let points = simulation.positions();
     let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
     // The simulation's own numbers, which the drawn mesh rounds.

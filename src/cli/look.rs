@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
 
+use crate::cubemap::FACES;
 use crate::mesh::SpringKinds;
 use crate::render::Options;
-use crate::scene::{MAX_RESOLUTION, Material, Scene, Shader};
-use crate::texture_source::TextureSource;
+use crate::scene::{MAX_RESOLUTION, Material, Plan, Scene, Shader};
+use crate::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
 #[derive(clap::Args)]
@@ -55,15 +56,17 @@ impl Look {
         self.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder)
     }
 
-    /// Every file that may be read as a texture: those of the folder and of the folders in it.
-    pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        let entries = |folder: &PathBuf| {
-            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-            entries.map(|entry| entry.path()).collect::<Vec<_>>()
-        };
-        let top: Vec<PathBuf> = self.textures.iter().flat_map(entries).collect();
-        let nested: Vec<PathBuf> = top.iter().flat_map(entries).collect();
-        top.into_iter().chain(nested).filter(|path| path.is_file()).collect()
+    /// Every file of the folder that may be read as a texture of `scene`.
+    pub(super) fn inputs(&self, scene: &Scene) -> Vec<PathBuf> {
+        let plan = Plan::of(scene);
+        let faces = plan.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
+        let names: Vec<String> = plan.textures.iter().cloned().chain(faces).collect();
+        let file = |folder: &PathBuf, name: &str, ending| folder.join(format!("{name}.{ending}"));
+        let folders = self.textures.iter();
+        let files = folders.flat_map(|folder| {
+            names.iter().flat_map(move |name| ENDINGS.map(|ending| file(folder, name, ending)))
+        });
+        files.filter(|path| path.is_file()).collect()
     }
 
     /// What is asked of the picture besides the scene.

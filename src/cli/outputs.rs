@@ -15,9 +15,14 @@ pub(super) fn check<'a>(
     inputs: &[&Path],
     outputs: impl IntoIterator<Item = (&'a Path, Content)>,
 ) -> Result<()> {
-    let mut taken: Vec<PathBuf> = inputs.iter().map(|path| identity(path)).collect();
+    let read: Vec<PathBuf> = inputs.iter().map(|path| identity(path)).collect();
+    let mut taken: Vec<PathBuf> = Vec::new();
     for (path, content) in outputs {
         let file = identity(path);
+        if read.contains(&file) {
+            let message = format!("`{}` would be read and then overwritten", path.display());
+            return Err(Error::new(Kind::Usage, message).with_help("give the output a name of its own"));
+        }
         if taken.contains(&file) {
             let message = format!("`{}` is named twice on the command line", path.display());
             return Err(Error::new(Kind::Usage, message).with_help("give every output its own file"));

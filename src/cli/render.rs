@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::advance::{advance, start};
+use super::advance::{advance_until, start};
 use super::look::Look;
 use super::scene::{Moment, SceneArgs};
 use super::{Session, bench, outputs};
@@ -14,6 +14,7 @@ use crate::output::png::{self, Effort};
 use crate::output::raw;
 use crate::raster::Stats;
 use crate::render::{Picture, Renderer};
+use crate::scene::Scene;
 use crate::simulation::Simulation;
 
 /// What `render` takes.
@@ -58,13 +59,13 @@ struct Summary {
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut scene = args.scene.load(session)?;
     args.look.apply(&mut scene);
-    let frames = args.moment.frame(&scene);
+    let until = args.moment.until(&scene);
     let path = args.picture_path()?;
-    args.check_outputs(&path, session)?;
+    args.check_outputs(&path, &scene, session)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
-    let mut simulation = start(&scene, frames, args.moment.leniency.allow_unstable, session)?;
-    advance(&mut simulation, frames, session, |_| Ok(()))?;
+    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
+    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let options = args.look.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
@@ -88,7 +89,7 @@ impl Args {
     }
 
     /// Checks all outputs before any long work; a benchmark has none.
-    fn check_outputs(&self, picture: &Path, session: &Session) -> Result<()> {
+    fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
         if self.bench.is_some() {
             return Ok(());
         }
@@ -96,7 +97,7 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let textures = self.look.inputs();
+        let textures = self.look.inputs(scene);
         let inputs: Vec<&Path> =
             self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
         outputs::check(&inputs, all)

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Session;
+use super::advance::Until;
 use crate::error::Result;
 use crate::scene::{self, Overrides, Scene};
 
@@ -57,9 +58,15 @@ pub(super) struct Moment {
     /// Frame number; 0 is the start
     #[arg(long, value_name = "N")]
     frame: Option<u64>,
+    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1 if it is not
+    #[arg(long)]
+    until_rest: bool,
     #[command(flatten)]
     pub(super) leniency: Leniency,
 }
+
+/// Simulated time in which a cloth has to come to rest, in seconds.
+pub(super) const REST_TIME: f64 = 60.0;
 
 /// What is let pass.
 #[derive(clap::Args)]
@@ -70,9 +77,10 @@ pub(super) struct Leniency {
 }
 
 impl Moment {
-    /// The number of the frame in `scene`.
-    pub(super) fn frame(&self, scene: &Scene) -> u64 {
-        self.frame.unwrap_or_else(|| frame_at(self.time, scene))
+    /// The frame, or the last one in which the cloth may come to rest.
+    pub(super) fn until(&self, scene: &Scene) -> Until {
+        let time = self.time.or(self.until_rest.then_some(REST_TIME));
+        Until { frames: self.frame.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
     }
 }
 

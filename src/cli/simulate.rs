@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::advance::{advance, start};
-use super::scene::{Leniency, SceneArgs, frame_at, seconds};
+use super::advance::{Until, advance_until, start};
+use super::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
 use super::table::Table;
 use super::{Session, counts, outputs};
 use crate::cloth::Counters;
@@ -15,6 +15,7 @@ use crate::cloth::ledger::Ledger;
 use crate::error::Result;
 use crate::output::atomic::{self, Content};
 use crate::output::raw;
+use crate::scene::Scene;
 use crate::simulation::{Simulation, Timings};
 
 /// What `simulate` takes.
@@ -28,6 +29,9 @@ pub(super) struct Args {
     /// Number of frames
     #[arg(long, value_name = "N")]
     frames: Option<u64>,
+    /// Go on until the cloth is at rest, at most to --time or --frames (default: 60 s); exit code 1 if it is not
+    #[arg(long)]
+    until_rest: bool,
     /// Write the last positions: x y z of each point, row by row, f64 little-endian (`-` = standard output)
     #[arg(long, value_name = "FILE")]
     positions: Option<PathBuf>,
@@ -77,9 +81,9 @@ struct Bench {
 /// Simulates, writes the positions, prints the result.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
-    let frames = args.frames.unwrap_or_else(|| frame_at(args.time, &scene));
+    let until = args.until(&scene);
     args.check_outputs(session)?;
-    let mut simulation = start(&scene, frames, args.leniency.allow_unstable, session)?;
+    let mut simulation = start(&scene, until.frames, args.leniency.allow_unstable, session)?;
     if args.bench {
         simulation.record_timings();
     }
@@ -88,7 +92,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         simulation.record_ledger()?;
     }
     let mut hashes = Vec::new();
-    let elapsed = advance(&mut simulation, frames, session, |now| {
+    let elapsed = advance_until(&mut simulation, &scene, until, session, |now| {
         table.iter_mut().for_each(|table| table.row(now));
         args.take_hash(now, session, &mut hashes)
     })?;
@@ -108,6 +112,11 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    fn until(&self, scene: &Scene) -> Until {
+        let time = self.time.or(self.until_rest.then_some(REST_TIME));
+        Until { frames: self.frames.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
+    }
+
     fn check_outputs(&self, session: &Session) -> Result<()> {
         outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
         let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));

@@ -11,7 +11,7 @@ use super::{Points, filled};
 use crate::error::Result;
 
 /// A box, as three integers.
-type Key = (i64, i64, i64);
+pub(crate) type Key = (i64, i64, i64);
 
 /// Points whose bounds are compared at once.
 const BLOCK: usize = 32;
@@ -58,6 +58,16 @@ impl Boxes {
         boxes.changed.extend(0..points);
         boxes.reorder();
         Ok(boxes)
+    }
+
+    /// All points, by box and by index within a box.
+    pub(crate) fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// The box of point `p`.
+    pub(crate) fn key(&self, p: usize) -> Key {
+        self.keys[p]
     }
 
     /// How many boxes hold two or more points.

@@ -91,11 +91,12 @@ mod tests {
 
     #[test]
     fn the_smallest_distance_is_that_of_all_pairs() {
-        for count in [2_u64, 3, 40, 200] {
-            let mut x = Points::zeros(count as usize).unwrap();
+        for count in [2, 3, 40, 200] {
+            let mut x = Points::zeros(count).unwrap();
             for p in 0..count {
-                let [a, b, c] = [0, 1, 2].map(|c| (splitmix64(3 * p + c + count) >> 40) as f64);
-                x.set(p as usize, crate::scene::Vec3::new(a, 3.0 * b, 0.5 * c));
+                let [a, b, c] =
+                    [0, 1, 2].map(|c| (splitmix64((3 * p + c + count) as u64) >> 40) as f64 * 1e-8);
+                x.set(p, crate::scene::Vec3::new(a, 3.0 * b, 0.5 * c));
             }
             let pairs = (0..x.len()).flat_map(|p| (0..p).map(move |q| (p, q)));
             let all = pairs.map(|(p, q)| len(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min);

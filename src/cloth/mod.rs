@@ -21,22 +21,29 @@
 //! - time reversal with damping, contact or the stretch limit;
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
+//! Each has a cure that a scene can ask for: `sim.start`, `sim.damping`, `sim.self_collision` and
+//! `sim.contact`. The defaults are the published method's.
+//!
 //! # Why the sign of a zero never shows
 //! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
 //! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 use crate::error::{Error, Kind, Result};
-use crate::scene::{Cloth, Sim, Vec3};
+use crate::math::ln;
+use crate::scene::{Cloth, Damping, Sim, Vec3};
 
 mod boxes;
 pub(crate) mod collide;
+pub(crate) mod contact;
 pub mod energy;
 pub(crate) mod forces;
 pub mod grid;
 pub(crate) mod guard;
 pub mod ledger;
 pub mod measure;
+pub(crate) mod neighbors;
+pub mod rest;
 pub(crate) mod self_collision;
 pub mod springs;
 pub mod stability;
@@ -101,9 +108,11 @@ pub struct Constants {
     pub mass: f64,
     /// Step, in seconds: `1 / fps / T`.
     pub dt: f64,
-    /// What a force of 1 N moves a point in one step, in metres: `dt² / mass`.
+    /// What a force of 1 N moves a point in one step, in metres: `dt² / mass`, and with damping
+    /// per second at the rate c that over `1 + c dt / 2`.
     pub a2: f64,
-    /// Part of a point's displacement that a step keeps: `1 - damping / 100`.
+    /// Part of a point's displacement that a step keeps: `1 - damping / 100`, and with damping per
+    /// second `(1 - c dt / 2) / (1 + c dt / 2)`.
     pub keep: f64,
     /// Weight of a point, in N.
     pub weight: Vec3,
@@ -119,8 +128,24 @@ impl Constants {
         let mass = cloth.width * cloth.height * cloth.density / w / h;
         let dt = 1.0 / sim.fps / steps_per_frame;
         let weight = sim.gravity * mass;
-        Self { mass, dt, a2: dt * dt / mass, keep: 1.0 - cloth.damping / 100.0, weight, steps_per_frame }
+        let report =
+            Self { mass, dt, a2: dt * dt / mass, keep: 1.0 - cloth.damping / 100.0, weight, steps_per_frame };
+        match sim.damping {
+            Damping::PerStep => report,
+            Damping::PerSecond => {
+                let half = 0.5 * dt * damping_rate(cloth.damping);
+                Self { a2: report.a2 / (1.0 + half), keep: (1.0 - half) / (1.0 + half), ..report }
+            }
+        }
     }
+}
+
+/// The steps a second at which a damping per second means what the report's means.
+const REPORT_STEPS: f64 = 2700.0;
+
+/// The rate c per second at which a damping of `percent` (below 100) slows points down: `v' = -c v`.
+pub fn damping_rate(percent: f64) -> f64 {
+    -ln(1.0 - percent / 100.0) * REPORT_STEPS
 }
 
 /// What was done since the start, counted. The counts depend on the scene alone, not on the

@@ -31,14 +31,14 @@ pub(crate) struct SelfCollision {
 }
 
 impl SelfCollision {
-    /// Self-collision of `cloth`, whose points start at `x`; none when it is off or the cloth has
-    /// no thickness.
+    /// Self-collision of `cloth`, whose points start at `x`; none when another kind is
+    /// asked for or the cloth has no thickness.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Option<Self>> {
         let distance = 2.0 * cloth.thickness;
-        if sim.self_collision == Mode::Off || distance == 0.0 {
+        if sim.self_collision != Mode::SameBox || distance == 0.0 {
             return Ok(None);
         }
         let bx = 3.0 * cloth.width / grid.width as f64;

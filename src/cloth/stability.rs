@@ -3,7 +3,8 @@
 //! A vibration of angular frequency ω under Verlet's scheme with the part `d` of the displacement
 //! lost per step obeys `z² - (2 - d - (dt ω)²) z + (1 - d) = 0`; both roots stay inside the unit
 //! circle iff `(dt ω)² < 4 - 2 d` (Jury's criterion). ω² is an eigenvalue of the stiffness matrix
-//! over the mass, so the largest eigenvalue decides.
+//! over the mass, so the largest eigenvalue decides. With damping per second at the rate c it is
+//! `(1 + h) z² - (2 - (dt ω)²) z + (1 - h) = 0` with h = c dt / 2, and the bound 4 for every c.
 //!
 //! A spring of stiffness k, length l and rest length l0 in direction n has the stiffness matrix
 //! `k (n nᵀ + (1 - l0 / l)(I - n nᵀ))`.
@@ -21,7 +22,7 @@ use super::springs::Springs;
 use super::{Constants, Points, dot};
 use crate::error::Result;
 use crate::math::splitmix64;
-use crate::scene::{Cloth, Sim, Vec3};
+use crate::scene::{Cloth, Damping, Sim, Vec3};
 
 /// Points along each side of the part of a cloth whose vibrations are computed. A part vibrates
 /// no faster than the whole, and at this size less than 0.1 % slower.
@@ -37,7 +38,7 @@ pub struct Stability {
     pub mass: f64,
     /// Step, in seconds.
     pub dt: f64,
-    /// Largest `dt ω` that is still stable: `sqrt(4 - 2 d)`.
+    /// Largest `dt ω` that is still stable: `sqrt(4 - 2 d)`, or 2 with damping per second.
     pub limit: f64,
     /// Angular frequency of the fastest vibration of the cloth at rest, in rad/s; never too large.
     pub omega_rest: f64,
@@ -57,7 +58,10 @@ impl Stability {
         Ok(Self {
             mass,
             dt,
-            limit: (4.0 - 2.0 * cloth.damping / 100.0).sqrt(),
+            limit: match sim.damping {
+                Damping::PerStep => (4.0 - 2.0 * cloth.damping / 100.0).sqrt(),
+                Damping::PerSecond => 2.0,
+            },
             omega_rest: (rest_eigenvalue(&part(cloth))? / mass).sqrt(),
             omega_safe: (safe_eigenvalue(cloth) / mass).sqrt(),
             fps: sim.fps,

@@ -246,6 +246,24 @@ mod tests {
         assert_eq!(mode(&file), 0o640);
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_and_not_replaced() {
+        let dir = tempfile::tempdir().unwrap();
+        let pipe = dir.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let (sender, received) = std::sync::mpsc::channel();
+        let from = pipe.clone();
+        std::thread::spawn(move || sender.send(fs::read(from).unwrap()));
+        std::thread::spawn(move || {
+            check_writable(&pipe, Content::Binary).unwrap();
+            write(&pipe, b"through").unwrap();
+        });
+        // The reader of a pipe that was replaced would wait for ever.
+        let bytes = received.recv_timeout(std::time::Duration::from_secs(10));
+        assert_eq!(bytes, Ok(b"through".to_vec()));
+    }
+
     #[cfg(target_os = "linux")]
     #[test]
     fn a_full_device_is_an_error() {

@@ -6,7 +6,7 @@ use crate::{
     camera::Camera,
     cloth::Points,
     cubemap::Cubemap,
-    error::Result,
+    error::{Error, Kind, Result},
     lanes::Wide,
     mesh::SpringKinds,
     raster::{self, Framebuffer, Stages, Stats},
@@ -15,6 +15,9 @@ use crate::{
     texture_source::TextureSource,
 };
 use object::{Object, round};
+
+/// Most samples of a picture: 16384 x 16384 pixels of one sample, which take 3 GiB.
+pub const MAX_SAMPLES: u64 = 1 << 28;
 
 /// What is asked of a picture besides the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,8 +58,16 @@ impl Renderer {
     /// Reads the textures that the scene's materials need, each once, and no others.
     ///
     /// # Errors
-    /// A texture that is missing or cannot be decoded.
+    /// A texture that is missing or cannot be decoded; more than [`MAX_SAMPLES`].
     pub fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
+        let [width, height] = scene.render.size.map(u64::from);
+        let samples = width * height * u64::from(scene.render.samples);
+        if samples > MAX_SAMPLES {
+            let message =
+                format!("{width} x {height} pixels of {} samples are too many", scene.render.samples);
+            let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
+            return Err(Error::new(Kind::Scene, message).with_help(help));
+        }
         let plan = Plan::of(scene);
         let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
         let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));

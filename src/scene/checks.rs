@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::format::Node;
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Cloth, Scene, SelfCollision};
+use super::{Cloth, Damping, Scene, SelfCollision};
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -31,6 +31,7 @@ impl Checks<'_> {
             self.point_count(cloth);
             self.pins(cloth);
             self.thickness(cloth);
+            self.damping(cloth);
         }
         self.near_and_far();
         self.object_count();
@@ -121,6 +122,20 @@ impl Checks<'_> {
         if let Some(place) = self.span("cloth.thickness") {
             self.report.warn(finding.at(place, "half the distance that self-collision keeps"));
         }
+    }
+
+    /// No finite rate takes all of the motion away.
+    fn damping(&mut self, cloth: &Cloth) {
+        let all_per_second = self.scene.sim.damping == Damping::PerSecond && cloth.damping == 100.0;
+        if !all_per_second || !self.clean(&["cloth.damping", "sim.damping"]) {
+            return;
+        }
+        let place = self.span("cloth.damping");
+        let finding = Finding::new("scene::damping", "a damping of 100 % has no rate per second")
+            .key("cloth.damping")
+            .also(self.span("sim.damping"), "`sim.damping` is set here")
+            .help("lower `cloth.damping` below 100, or leave out `sim.damping`");
+        self.error(place, "must be below 100", finding);
     }
 
     fn near_and_far(&mut self) {

@@ -2,13 +2,13 @@
 
 use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
-use super::names::{DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
+use super::names::{CONTACTS, DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::reader::Object;
 use super::scalar::{Choice, Coded, Count, Flag, Name, Number};
 use super::{
-    Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision, Render,
-    Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision,
+    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
 };
 
 /// The sample counts of `render.samples`.
@@ -100,6 +100,7 @@ fn sim(at: &mut Object) -> Sim {
         stretch_limit: at.optional("stretch_limit", Some(0.1), OrNull(Number(NOT_NEGATIVE))),
         stretch_passes: at.optional("stretch_passes", 1, Count(1, 1_000_000)),
         self_collision: at.optional("self_collision", SelfCollision::SameBox, Choice(SELF_COLLISIONS)),
+        contact: at.optional("contact", Contact::Report, Choice(CONTACTS)),
     }
 }
 

@@ -146,6 +146,8 @@ pub struct Sim {
     pub stretch_passes: u32,
     /// How close pairs of points of the cloth are found.
     pub self_collision: SelfCollision,
+    /// What is promised of points that touched an object.
+    pub contact: Contact,
 }
 
 /// The scheme that advances the positions (`sim.integrator`).
@@ -167,6 +169,10 @@ pub enum Precision {
 pub enum Start {
     /// `last = x`: the report's, first order.
     Report,
+    /// `last = x - v dt + f dt² / (2 m)` at speed v = 0: second order. Free fall then falls by
+    /// `g t² / 2` exactly, where the report's start is off by `g dt t / 2`. Measured on an undamped
+    /// hanging cloth of 8 x 8 points at 0.2 s and 30 steps a frame: 2.1e-7 m off instead of 3.7e-4 m.
+    HalfStep,
 }
 
 /// What the damping percentage refers to (`sim.damping`).
@@ -174,6 +180,12 @@ pub enum Start {
 pub enum Damping {
     /// Per step, the report's.
     PerStep,
+    /// Per second, at the rate `c = -2700 ln(1 - damping / 100)` per second, which is the report's at
+    /// its 2700 steps a second; as a force `-c m v` at the middle of the step, second order.
+    /// Free fall ends at `g / c` for every number of steps. Measured on a hanging cloth of 8 x 8
+    /// points at 0.2 s, with the half-step start: 2.4e-7 m off at 30 steps a frame; with damping
+    /// per step it is another cloth, 35 mm off at 10 and 71 mm at 120 steps a frame.
+    PerSecond,
 }
 
 /// How close pairs of points are found (`sim.self_collision`).
@@ -181,8 +193,20 @@ pub enum Damping {
 pub enum SelfCollision {
     /// Only within a point's own box, the report's.
     SameBox,
+    /// All, as comparing each point with every other would: `src/cloth/neighbors.rs`.
+    Neighbors,
     /// Not at all.
     Off,
+}
+
+/// What is promised of points that touched an object (`sim.contact`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contact {
+    /// Nothing, the report's: friction and the stretch limit leave points inside.
+    Report,
+    /// After every step no free point is inside a sphere, or beyond a plane from where it
+    /// started, but for rounding: `src/cloth/contact.rs`.
+    Outside,
 }
 
 /// The orbit camera of the report's viewer.

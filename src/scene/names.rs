@@ -1,6 +1,6 @@
 //! The names that scene files and the command line give to the choices of a [`super::Scene`].
 
-use super::{Damping, Filter, Integrator, Precision, SelfCollision, Shader, Start};
+use super::{Contact, Damping, Filter, Integrator, Precision, SelfCollision, Shader, Start};
 
 impl Shader {
     /// Every shader with its name, in the order of the report.
@@ -29,14 +29,21 @@ pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[("verlet", Integrator::V
 pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64)];
 
 /// `sim.start`
-pub(super) const STARTS: &[(&str, Start)] = &[("report", Start::Report)];
+pub(super) const STARTS: &[(&str, Start)] = &[("report", Start::Report), ("half_step", Start::HalfStep)];
 
 /// `sim.damping`
-pub(super) const DAMPINGS: &[(&str, Damping)] = &[("per_step", Damping::PerStep)];
+pub(super) const DAMPINGS: &[(&str, Damping)] =
+    &[("per_step", Damping::PerStep), ("per_second", Damping::PerSecond)];
 
 /// `sim.self_collision`
-pub(super) const SELF_COLLISIONS: &[(&str, SelfCollision)] =
-    &[("same_box", SelfCollision::SameBox), ("off", SelfCollision::Off)];
+pub(super) const SELF_COLLISIONS: &[(&str, SelfCollision)] = &[
+    ("same_box", SelfCollision::SameBox),
+    ("neighbors", SelfCollision::Neighbors),
+    ("off", SelfCollision::Off),
+];
+
+/// `sim.contact`
+pub(super) const CONTACTS: &[(&str, Contact)] = &[("report", Contact::Report), ("outside", Contact::Outside)];
 
 /// `render.filter`
 pub(super) const FILTERS: &[(&str, Filter)] = &[("nearest", Filter::Nearest), ("bilinear", Filter::Bilinear)];

@@ -1,6 +1,6 @@
 //! What a scene needs and why: decided once, so that nothing else is allocated, read or run.
 
-use super::{Cloth, Material, Scene, SelfCollision, Shader};
+use super::{Cloth, Contact, Material, Scene, SelfCollision, Shader};
 
 /// What a scene needs. Everything that is `false` or absent here can be left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,15 +166,21 @@ fn self_collision(scene: &Scene) -> Decision {
     if cloth.thickness == 0.0 {
         return Err("cloth.thickness is 0".into());
     }
-    Ok(format!("cloth.thickness is {} m", cloth.thickness))
+    let whole = scene.sim.self_collision == SelfCollision::Neighbors;
+    let seen = if whole { ", and sim.self_collision is neighbors: all pairs are seen" } else { "" };
+    Ok(format!("cloth.thickness is {} m{seen}", cloth.thickness))
 }
 
 fn collision(scene: &Scene, kind: &str, count: usize) -> Decision {
     cloth(scene)?;
     match count {
         0 => Err(format!("the scene has no {kind}")),
-        1 => Ok(format!("the scene has 1 {kind}")),
-        _ => Ok(format!("the scene has {count} {kind}s")),
+        _ => {
+            let plural = if count == 1 { "" } else { "s" };
+            let outside = scene.sim.contact == Contact::Outside;
+            let kept = if outside { ", and sim.contact is outside: points are kept out" } else { "" };
+            Ok(format!("the scene has {count} {kind}{plural}{kept}"))
+        }
     }
 }
 

@@ -172,13 +172,13 @@ fn the_advice_before_the_first_step_holds() {
         let rest = refused.stderr.split(text).nth(1).expect(text);
         rest.split([',', ';', '\n']).next().unwrap().trim().parse().unwrap()
     };
-    let (steps, softer) = (number("to at least ") as u32, number("lower ks below "));
+    let (steps, softer) = (number("to at least "), number("lower ks below "));
     for (ks, steps, code, warns) in [
-        (4e7, steps - 1, 5, false),
+        (4e7, steps - 1.0, 5, false),
         (4e7, steps, 0, true),
-        (softer, 30, 0, true),
-        (1.002 * softer, 30, 5, false),
-        (softer / 3.0, 30, 0, false),
+        (softer, 30.0, 0, true),
+        (1.002 * softer, 30.0, 5, false),
+        (softer / 3.0, 30.0, 0, false),
     ] {
         let ran = run([&format!("cloth.ks={ks}"), &format!("sim.steps_per_frame={steps}")]);
         assert_eq!(ran.code, Some(code), "ks {ks}, {steps} steps: {}", ran.stderr);
@@ -299,9 +299,18 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
     fs::create_dir_all(scratch.path("set/cube")).expect("folders");
     for texture in ["set/texture_1.png", "set/cube/posx.png"] {
         fs::write(scratch.path(texture), "not looked into").expect("a file");
-        fails(&scratch, &["render", "small.json", texture, "--textures", "set"], 2, "usage");
+        let arguments = ["render", "small.json", texture, "--textures", "set", "--shader", "custom"];
+        fails(&scratch, &arguments, 2, "usage");
         assert_eq!(scratch.read(texture), b"not looked into");
     }
+}
+
+#[test]
+fn a_picture_larger_than_memory_is_3() {
+    let scratch = Scratch::new();
+    let large = ["render", "small.json", "out.png", "--size", "16384x16384", "--samples", "4"];
+    let (error, _) = fails(&scratch, &large, 3, "scene");
+    assert!(error["help"].as_str().is_some_and(|help| help.contains("268435456")), "{error}");
 }
 
 #[test]

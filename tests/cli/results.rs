@@ -308,3 +308,34 @@ fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
     assert!((summary["ledger"]["damping"].as_f64().unwrap() - damping).abs() < 1e-8 * damping.abs());
     assert_eq!(summary["energy"]["kinetic"].as_f64().unwrap(), rows[40][column("kinetic")]);
 }
+
+/// Rest ends a run early; a limit that is too short is exit code 1 with what still moves.
+#[test]
+fn until_rest_ends_at_rest_or_says_what_still_moves() {
+    let scratch = Scratch::new();
+    let damped = ["--set", "cloth.damping=1", "--until-rest"];
+    let run = scratch.json(&[&["simulate", "small.json", "--json"], &damped[..]].concat());
+    let frames = run["frames"].as_u64().unwrap();
+    assert!((90..5400).contains(&frames), "{frames} frames");
+    assert!(run["energy"]["kinetic"].as_f64().unwrap() < 1e-4, "{run}");
+
+    let limit = |frames: u64| {
+        let frames = frames.to_string();
+        scratch.run(&[&["simulate", "small.json", "--json", "--frames", &frames], &damped[..]].concat())
+    };
+    assert_eq!(limit(frames).object()["frames"], frames, "the limit may be the frame itself");
+    let early = limit(frames - 1);
+    assert_eq!(early.code, Some(1), "{}", early.stderr);
+    let message = early.error()["error"].as_str().unwrap().to_owned();
+    assert!(message.contains(&format!("not at rest after {} frames", frames - 1)), "{message}");
+    assert!(message.contains("residual force"), "{message}");
+
+    let early = scratch.run(&["render", "small.json", "out.png", "--until-rest", "--time", "0.1"]);
+    assert_eq!(early.code, Some(1), "{}", early.stderr);
+    assert!(!scratch.path("out.png").exists(), "no picture of what was not asked for");
+    let picture = ["render", "small.json", "out.png", "--size", "16x16"];
+    scratch.succeed(&[&picture, &damped[..]].concat());
+    let at = ["--set", "cloth.damping=1", "--frame", &frames.to_string()];
+    scratch.succeed(&[&["render", "small.json", "at.png", "--size", "16x16"], &at[..]].concat());
+    assert_eq!(scratch.read("out.png"), scratch.read("at.png"), "the picture at rest");
+}

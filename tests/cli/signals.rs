@@ -15,7 +15,7 @@ impl Long {
     fn start(scratch: &Scratch, steps_per_frame: &str) -> Self {
         let steps = format!("sim.steps_per_frame={steps_per_frame}");
         let arguments = ["simulate", "small.json", "--frames", "100000000", "--hash", "--positions", "out"];
-        let mut command = scratch.command(&[&arguments[..], &["--set", &steps]].concat());
+        let mut command = scratch.command(&[&arguments[..], &["--allow-unstable", "--set", &steps]].concat());
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
         let mut stdout = BufReader::new(child.stdout.take().expect("a pipe"));
         stdout.read_line(&mut String::new()).expect("a line");

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test uses some of these")]
 
 use drape::scene::{
-    Camera, Cloth, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision, Render,
-    Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision,
+    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
 };
 
 /// Every stock scene by name.
@@ -93,6 +93,7 @@ pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
             stretch_limit: Some(0.1),
             stretch_passes: 1,
             self_collision: SelfCollision::SameBox,
+            contact: Contact::Report,
         },
         camera: Camera {
             target: None,

@@ -1,0 +1,36 @@
+//! The checks of a frame, and the state that it began with.
+
+use super::State;
+use crate::cloth::energy::Energy;
+use crate::cloth::guard::first_lost;
+
+impl State {
+    /// Takes the state as the start that the energy is held against.
+    pub(super) fn set_budget(&mut self) {
+        let energy = Energy::new(&self.x, &self.last, &self.springs, &self.constants);
+        self.budget = self.allowance.budget(&self.x, energy, &self.constants);
+    }
+
+    /// Notes the state before a frame, for the search after a failure.
+    pub(super) fn note_frame_start(&mut self) {
+        let [x, last] = &mut self.frame_start;
+        x.copy_from(&self.x);
+        last.copy_from(&self.last);
+    }
+
+    /// The state before the frame.
+    pub(super) fn at_frame_start(&self) -> Self {
+        let [x, last] = self.frame_start.clone();
+        Self { x, last, ..self.clone() }
+    }
+
+    /// The energies of motion and height.
+    pub(super) fn motion_and_height(&self) -> Energy {
+        Energy::without_springs(&self.x, &self.last, &self.constants)
+    }
+
+    /// Whether all positions are in range and, if `guarded`, the energy is.
+    pub(super) fn is_sound(&self, guarded: bool) -> bool {
+        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
+    }
+}
