@@ -91,6 +91,11 @@ fn copy_changed(path: &Path, copy: &Path, fault: Option<&Fault>) {
             fs::read_dir(from).unwrap().map(|entry| path.join(entry.unwrap().file_name())).collect();
         entries.sort();
         entries.iter().for_each(|entry| copy_changed(entry, copy, fault));
+        let gone = |file: &PathBuf| !package().join(path).join(file.file_name().unwrap()).exists();
+        let copied = fs::read_dir(to).into_iter().flatten().map(|entry| entry.unwrap().path());
+        copied
+            .filter(gone)
+            .for_each(|file| fs::remove_file(&file).or_else(|_| fs::remove_dir_all(file)).unwrap());
         return;
     }
     let mut bytes = fs::read(from).unwrap();

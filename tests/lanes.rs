@@ -71,9 +71,9 @@ fn interpolation_gives_the_same_bits_in_one_lane_and_in_eight() {
     assert_eq!((one, picture), varyings::<Wide<f64>>(canvas, &vertices, &triangles));
 }
 
-/// Every operation of the eight lanes is that of one lane, also on numbers without a size.
+/// Every operation of the lanes is that of plain numbers, also on those without a size.
 #[test]
-fn every_operation_is_that_of_one_lane() {
+fn every_operation_is_that_of_plain_numbers() {
     let special = [0.0, -0.0, 1.0, -1.5, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e-45, 2.5, -2.5, 1e30];
     for &a in &special {
         for &b in &special {
@@ -86,10 +86,10 @@ fn every_operation_is_that_of_one_lane() {
                 (-x, -a),
                 (Lane::sqrt(x), Lane::sqrt(a)),
                 (Lane::floor(x), Lane::floor(a)),
-                (Lane::abs(x), Lane::abs(a)),
-                (Lane::max(x, y), Lane::max(a, b)),
-                (Lane::min(x, y), Lane::min(a, b)),
-                (x.select_less(y, x, y), a.select_less(b, a, b)),
+                (Lane::abs(x), if a < 0.0 { -a } else { a }),
+                (Lane::max(x, y), if b < a { a } else { b }),
+                (Lane::min(x, y), if a < b { a } else { b }),
+                (x.select_less(y, x, y), if a < b { a } else { b }),
             ];
             for (i, (wide, one)) in pairs.into_iter().enumerate() {
                 let same = |lane: f32| lane.to_bits() == one.to_bits() || (lane.is_nan() && one.is_nan());
