@@ -6,5 +6,6 @@ pub mod compare;
 pub mod csv;
 pub mod html;
 pub mod obj;
+pub mod page;
 pub mod png;
 pub mod raw;
