@@ -51,6 +51,7 @@ fn empty() -> Scene {
             gravity: Vec3::new(0.0, -9.8, 0.0),
             integrator: Integrator::Verlet,
             iterations: 1,
+            tolerance: 1e-4,
             precision: Precision::F64,
             start: Start::Report,
             damping: Damping::PerStep,

@@ -48,7 +48,7 @@ fn pull<T: Real>(x: &Points<T>, family: &Family, points: Range<usize>, out: [&mu
     let (ax, ay, az) = (&x.x[points.clone()], &x.y[points.clone()], &x.z[points.clone()]);
     let (bx, by, bz) = (&x.x[b.clone()], &x.y[b.clone()], &x.z[b]);
     let rest = &family.rest[points];
-    pull_each(ax, ay, az, bx, by, bz, rest, T::round(family.stiffness), out_x, out_y, out_z);
+    pull_each(ax, ay, az, bx, by, bz, rest, T::nearest(family.stiffness), out_x, out_y, out_z);
 }
 
 /// `e · (k · (l - l0) / l)` for every pair of points a and b, and zero where they meet.
@@ -74,7 +74,7 @@ fn pull_each<T: Real>(
         let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
         let l = (ex * ex + ey * ey + ez * ez).sqrt();
         // Dividing first and choosing after leaves the loop without a branch, so it is vectorised.
-        let scale = stiffness * (l - T::round(rest[i])) / l;
+        let scale = stiffness * (l - T::nearest(rest[i])) / l;
         let scale = if l == T::default() { T::default() } else { scale };
         out_x[i] = ex * scale;
         out_y[i] = ey * scale;

@@ -5,14 +5,15 @@
 //! `d1 = keep d0 + f a` after it moved by `d0`, and with `d1 - d0 = drag + f dt² / m`
 //! its kinetic energy changes by `(d1 - d0) · (d1 + d0) m / (2 dt²)`, which splits without a rest:
 //! - damping: `drag · (d0 + d1) m / (2 dt²)`;
-//! - gravity: `w · (d0 + d1) / 2` of motion against `w · d1` of height, so `w · (d0 - d1) / 2`;
+//! - gravity: `w · (d0 + d1) / 2` of motion and what the height changed, together
+//!   `w · (d0 - d1) / 2`;
 //! - springs: `s · (d0 + d1) / 2` of motion and what their own energy changed.
 //!
 //! So gravity and springs have entries only for what the finite step makes them add: both vanish
 //! with the step, and grow without end when the step is too large for the springs.
 //!
-//! For the other integrators f is the force that explains the motion, `(d1 - keep d0) / a`; what
-//! they dissipate is therefore the springs' and gravity's.
+//! For the other integrators f is the force that explains the motion, `(d1 - keep d0) / a`; so what
+//! they dissipate by themselves is entered for the springs and gravity.
 
 use super::energy::{Energy, spring_energy};
 use super::grid::Pins;
@@ -69,6 +70,8 @@ pub(crate) struct Recorder {
     before: Points,
     /// Energy of the springs before the step, in J.
     spring: f64,
+    /// Energy of weight before the step, in J.
+    gravitational: f64,
     /// Total energy after the last phase, in J.
     total: f64,
 }
@@ -79,13 +82,20 @@ impl Recorder {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(points: usize) -> Result<Self> {
-        Ok(Self { ledger: Ledger::default(), before: Points::zeros(points)?, spring: 0.0, total: 0.0 })
+        Ok(Self {
+            ledger: Ledger::default(),
+            before: Points::zeros(points)?,
+            spring: 0.0,
+            gravitational: 0.0,
+            total: 0.0,
+        })
     }
 
     /// Notes the state before a step.
-    pub(crate) fn begin(&mut self, x: &Points, last: &Points, springs: &Springs) {
+    pub(crate) fn begin(&mut self, x: &Points, last: &Points, springs: &Springs, constants: &Constants) {
         (0..x.len()).for_each(|p| self.before.set(p, x.get(p) - last.get(p)));
         self.spring = spring_energy(x, springs);
+        self.gravitational = -(0..x.len()).map(|p| dot(constants.weight, x.get(p))).sum::<f64>();
     }
 
     /// Enters what the integrator did. Of a point that moved by d0 and then by d1, `split` gives
@@ -105,10 +115,11 @@ impl Recorder {
             let (d0, d1) = (self.before.get(p), x.get(p) - last.get(p));
             let [drag, f] = split(p, d0, d1);
             self.ledger.damping += inertia * dot(drag, d0 + d1);
-            self.ledger.gravity += 0.5 * dot(weight, d0 - d1);
+            self.ledger.gravity += 0.5 * dot(weight, d0 + d1);
             self.ledger.springs += 0.5 * dot(f - weight, d0 + d1);
         }
         let energy = Energy::new(x, last, springs, constants);
+        self.ledger.gravity += energy.gravitational - self.gravitational;
         self.ledger.springs += energy.spring - self.spring;
         self.total = energy.total();
     }

@@ -5,6 +5,11 @@
 //! of the published method, so two programs that follow it agree in every bit. All numbers are
 //! binary64; nothing here uses more than + - × ÷ and the square root.
 //!
+//! Other integrators ([`crate::scene::Integrator`]) take the place of Verlet's scheme, on the same
+//! springs and before the same other phases. For each of them the velocity of a point between two
+//! steps is `(x - last) / dt`, with `last` where it was one step ago before the phases, so
+//! that collisions and the stretch limit change velocities as they do under Verlet's scheme.
+//!
 //! Point (i, j) of a grid of `W` × `H` points has index `j * W + i`. Positions are in metres.
 //!
 //! # What this method does not promise
@@ -33,22 +38,28 @@ use crate::error::{Error, Kind, Result};
 use crate::math::ln;
 use crate::scene::{Cloth, Damping, Integrator, Sim, Vec3};
 
+pub(crate) mod bdf2;
 mod boxes;
 pub(crate) mod collide;
+mod conjugate_gradients;
 pub(crate) mod contact;
 pub mod energy;
 pub(crate) mod forces;
 mod gather;
 pub mod grid;
 pub(crate) mod guard;
+pub(crate) mod implicit_euler;
 pub mod ledger;
 pub mod measure;
 pub(crate) mod neighbors;
+mod newton;
 mod real;
 pub mod rest;
 pub(crate) mod self_collision;
+pub(crate) mod single;
 pub mod springs;
 pub mod stability;
+mod stiffness;
 pub(crate) mod stretch_limit;
 pub(crate) mod verlet;
 pub(crate) mod xpbd;
@@ -73,6 +84,16 @@ impl<T: Clone + Default> Points<T> {
     pub(crate) fn filled(len: usize) -> Result<Self> {
         let [x, y, z] = [(); 3].map(|()| filled(len, T::default()));
         Ok(Self { x: x?, y: y?, z: z? })
+    }
+
+    /// The three components.
+    pub(crate) fn components(&self) -> [&[T]; 3] {
+        [&self.x, &self.y, &self.z]
+    }
+
+    /// The three components, to be changed.
+    pub(crate) fn components_mut(&mut self) -> [&mut [T]; 3] {
+        [&mut self.x, &mut self.y, &mut self.z]
     }
 }
 
@@ -174,9 +195,9 @@ pub fn damping_rate(percent: f64) -> f64 {
 pub struct Counters {
     /// Steps made.
     pub steps: u64,
-    /// Springs whose force was computed.
+    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed.
     pub springs_evaluated: u64,
-    /// Points that Verlet's scheme moved on.
+    /// Points that the integrator moved on.
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.
     pub boxes_searched: u64,

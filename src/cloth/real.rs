@@ -7,13 +7,13 @@ pub(crate) trait Real:
     Copy + Default + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// The nearest number of this type.
-    fn round(value: f64) -> Self;
+    fn nearest(value: f64) -> Self;
     /// The square root.
     fn sqrt(self) -> Self;
 }
 
 impl Real for f64 {
-    fn round(value: f64) -> Self {
+    fn nearest(value: f64) -> Self {
         value
     }
 
@@ -24,7 +24,7 @@ impl Real for f64 {
 
 impl Real for f32 {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
-    fn round(value: f64) -> Self {
+    fn nearest(value: f64) -> Self {
         value as Self
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::format::Node;
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Cloth, Damping, Integrator, Scene, SelfCollision, Start};
+use super::{Cloth, Damping, Integrator, Precision, Scene, SelfCollision, Start};
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -33,7 +33,7 @@ impl Checks<'_> {
             self.thickness(cloth);
             self.damping(cloth);
         }
-        self.start();
+        self.only_verlet();
         self.near_and_far();
         self.object_count();
     }
@@ -140,17 +140,28 @@ impl Checks<'_> {
     }
 
     /// Half a step back is where Verlet's scheme has its velocity; the others have it at the start.
-    fn start(&mut self) {
+    /// Their residuals and tensions were not made for binary32.
+    fn only_verlet(&mut self) {
         let sim = &self.scene.sim;
-        let alone = sim.start == Start::HalfStep && sim.integrator != Integrator::Verlet;
-        if !alone || !self.clean(&["sim.start", "sim.integrator"]) {
+        if sim.integrator == Integrator::Verlet || !self.clean(&["sim.integrator"]) {
             return;
         }
-        let finding = Finding::new("scene::start", "only Verlet's scheme starts with half a step")
-            .key("sim.start")
-            .also(self.span("sim.integrator"), "`sim.integrator` is set here")
-            .help("leave out `sim.start`: other integrators know the velocity at the start");
-        self.error(self.span("sim.start"), "of Verlet's scheme", finding);
+        let half_step = sim.start == Start::HalfStep;
+        let why = "other integrators know the velocity at the start";
+        self.verlets("sim.start", half_step, "starts with half a step", why);
+        let single = sim.precision == Precision::F32;
+        self.verlets("sim.precision", single, "runs in binary32", "other integrators are binary64");
+    }
+
+    /// Reports that only Verlet's scheme does what `key` asks for, if it `does` ask.
+    fn verlets(&mut self, key: &str, does: bool, what: &str, why: &str) {
+        if does && self.clean(&[key]) {
+            let finding = Finding::new("scene::integrator", format!("only Verlet's scheme {what}"))
+                .key(key)
+                .also(self.span("sim.integrator"), "`sim.integrator` is set here")
+                .help(format!("leave out `{key}` or `sim.integrator`: {why}"));
+            self.error(self.span(key), "of Verlet's scheme", finding);
+        }
     }
 
     fn near_and_far(&mut self) {

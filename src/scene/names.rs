@@ -30,11 +30,15 @@ impl Integrator {
 }
 
 /// `sim.integrator`
-pub(super) const INTEGRATORS: &[(&str, Integrator)] =
-    &[("verlet", Integrator::Verlet), ("xpbd", Integrator::Xpbd)];
+pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[
+    ("verlet", Integrator::Verlet),
+    ("xpbd", Integrator::Xpbd),
+    ("implicit_euler", Integrator::ImplicitEuler),
+    ("bdf2", Integrator::Bdf2),
+];
 
 /// `sim.precision`
-pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64)];
+pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64), ("f32", Precision::F32)];
 
 /// `sim.start`
 pub(super) const STARTS: &[(&str, Start)] = &[("report", Start::Report), ("half_step", Start::HalfStep)];

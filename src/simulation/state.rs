@@ -50,7 +50,7 @@ impl State {
         let same_box = plan.self_collision == Mode::SameBox;
         let neighbors = plan.self_collision == Mode::Neighbors;
         let limit = |limit| StretchLimit::new(limit, sim.stretch_passes, &springs);
-        let scheme = Scheme::new(sim, &springs)?;
+        let scheme = Scheme::new(cloth, sim, &springs)?;
         let mut state = Self {
             constants,
             grid,
@@ -93,7 +93,7 @@ impl State {
     pub(super) fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
         stopwatch.start();
         if let Some(recorder) = &mut self.recorder {
-            recorder.begin(&self.x, &self.last, &self.springs);
+            recorder.begin(&self.x, &self.last, &self.springs, &self.constants);
         }
 
         // 1. and 2. The integrator: under the forces every free point moves on.

@@ -88,6 +88,7 @@ pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
             gravity: Vec3::new(0.0, -9.8, 0.0),
             integrator: Integrator::Verlet,
             iterations: 1,
+            tolerance: 1e-4,
             precision: Precision::F64,
             start: Start::Report,
             damping: Damping::PerStep,
