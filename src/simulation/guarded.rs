@@ -26,13 +26,16 @@ impl State {
         state
     }
 
-    /// The energies of motion and height.
-    pub(super) fn motion_and_height(&self) -> Energy {
-        Energy::without_springs(&self.x, &self.last, &self.constants)
+    /// The energies that are held against the budget: without the springs' under Verlet's scheme.
+    pub(super) fn watched_energy(&self) -> Energy {
+        if self.scheme.is_verlet() {
+            return Energy::without_springs(&self.x, &self.last, &self.constants);
+        }
+        Energy::new(&self.x, &self.last, &self.springs, &self.constants)
     }
 
     /// Whether all positions are in range and, if `guarded`, the energy is.
     pub(super) fn is_sound(&self, guarded: bool) -> bool {
-        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
+        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.watched_energy()))
     }
 }

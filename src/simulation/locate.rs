@@ -49,14 +49,13 @@ impl State {
         if let Some(point) = first_lost(&self.x) {
             return format!("{} is lost (no number, or beyond {RANGE:e} m)", name(point, self.grid));
         }
-        let energy = self.motion_and_height();
-        let found = energy.kinetic + energy.gravitational;
+        let energy = self.watched_energy();
+        let found = energy.total();
+        let what = if energy.spring > 0.0 { "motion, height and springs" } else { "motion and height" };
         let limit = self.budget.limit(energy);
         let fastest = fastest_point(&self.x, &self.last).map_or(0, |(point, _)| point);
         let point = name(fastest, self.grid);
-        format!(
-            "motion and height hold {found:.4e} J, more than the {limit:.4e} J that there can be, most in {point},"
-        )
+        format!("{what} hold {found:.4e} J, more than the {limit:.4e} J that there can be, most in {point},")
     }
 
     /// The spring that is stretched most, and the phase that put in most energy since the frame began.

@@ -38,6 +38,11 @@ impl Scheme {
         })
     }
 
+    /// Whether it is Verlet's scheme, in whatever arithmetic.
+    pub(super) fn is_verlet(&self) -> bool {
+        matches!(self, Self::Verlet(_) | Self::Single(_))
+    }
+
     /// What it remembers from step to step besides positions and last positions.
     pub(super) fn memory(&self) -> &[Points] {
         match self {
