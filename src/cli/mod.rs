@@ -19,6 +19,7 @@ mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod stability;
 mod table;
 mod ui;
 
@@ -90,5 +91,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Compare(args) => compare::run(args, &session),
         Command::Info(args) => info::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Stability(args) => stability::run(args, &session),
     }
 }
