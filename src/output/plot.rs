@@ -135,7 +135,8 @@ impl Plot {
                 "<path d=\"M{x} {y}h24\" style=\"stroke:var({color});stroke-width:{stroke}{dash}\"/>"
             );
         }
-        if style != Style::GUIDE {
+        // A cross has no outline: a hollow one stands for none.
+        if !(style.hollow && style.marker == Marker::Cross) {
             self.legend += &shape([x + 12.0, y], style);
         }
         self.legend += &text_at([x + 30.0, y + 4.5], "start", "--ink", text);
