@@ -3,6 +3,7 @@
 use super::State;
 use crate::cloth::energy::Energy;
 use crate::cloth::guard::first_lost;
+use crate::cloth::ledger::Recorder;
 
 impl State {
     /// Takes the state as the start that the energy is held against.
@@ -16,12 +17,15 @@ impl State {
         let [x, last] = &mut self.frame_start;
         x.copy_from(&self.x);
         last.copy_from(&self.last);
+        self.recorder.iter_mut().for_each(Recorder::begin_frame);
     }
 
     /// The state before the frame.
     pub(super) fn at_frame_start(&self) -> Self {
         let [x, last] = self.frame_start.clone();
-        Self { x, last, ..self.clone() }
+        let mut state = Self { x, last, ..self.clone() };
+        state.recorder.iter_mut().for_each(Recorder::restart_frame);
+        state
     }
 
     /// The energies of motion and height.
@@ -29,8 +33,20 @@ impl State {
         Energy::without_springs(&self.x, &self.last, &self.constants)
     }
 
-    /// Whether all positions are in range and, if `guarded`, the energy is.
+    /// Whether all positions are in range and, if `guarded`, the energy is and the ledger, if one
+    /// is kept.
     pub(super) fn is_sound(&self, guarded: bool) -> bool {
-        first_lost(&self.x).is_none() && !(guarded && self.budget.is_broken(self.motion_and_height()))
+        first_lost(&self.x).is_none() && !(guarded && (self.has_too_much() || self.is_overdrawn()))
+    }
+
+    /// Whether motion and height are more than there can be.
+    fn has_too_much(&self) -> bool {
+        self.budget.is_broken(self.motion_and_height())
+    }
+
+    /// Whether the ledger, if one is kept, shows that springs and gravity put in more than they can.
+    fn is_overdrawn(&self) -> bool {
+        let judged = self.recorder.as_ref().filter(|recorder| recorder.judged);
+        judged.is_some_and(|recorder| self.budget.is_overdrawn(recorder.ledger, self.motion_and_height()))
     }
 }
