@@ -10,12 +10,16 @@
 //!
 //! So gravity and springs have entries only for what the finite step makes them add: both vanish
 //! with the step, and grow without end when the step is too large for the springs.
+//!
+//! For the other integrators f is the force that explains the motion, `(d1 - keep d0) / a`; what
+//! they dissipate is therefore the springs' and gravity's.
 
 use super::energy::{Energy, spring_energy};
 use super::grid::Pins;
 use super::springs::Springs;
 use super::{Constants, Points, dot};
 use crate::error::Result;
+use crate::scene::Vec3;
 
 /// What was put into the total energy (positive) or taken out (negative), in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -105,21 +109,22 @@ impl Recorder {
         self.spring = spring_energy(x, springs);
     }
 
-    /// Enters what Verlet's step did under the forces `force`, in N.
+    /// Enters what the integrator did. Of a point that moved by d0 and then by d1, `split` gives
+    /// what damping changed of the displacement, and the force that changed the rest, in N.
     pub(crate) fn advanced(
         &mut self,
         x: &Points,
         last: &Points,
-        force: &Points,
         springs: &Springs,
         pins: &Pins,
         constants: &Constants,
+        split: impl Fn(usize, Vec3, Vec3) -> [Vec3; 2],
     ) {
-        let Constants { mass, dt, a2, keep, weight, .. } = *constants;
-        let (inertia, undamped) = (mass / (2.0 * dt * dt), dt * dt / mass);
+        let Constants { mass, dt, weight, .. } = *constants;
+        let inertia = mass / (2.0 * dt * dt);
         for p in pins.free.iter().cloned().flatten() {
-            let (d0, d1, f) = (self.before.get(p), x.get(p) - last.get(p), force.get(p));
-            let drag = d0 * (keep - 1.0) + f * (a2 - undamped);
+            let (d0, d1) = (self.before.get(p), x.get(p) - last.get(p));
+            let [drag, f] = split(p, d0, d1);
             self.ledger.damping += inertia * dot(drag, d0 + d1);
             self.ledger.gravity += 0.5 * dot(weight, d0 - d1);
             self.ledger.springs += 0.5 * dot(f - weight, d0 + d1);
@@ -129,7 +134,7 @@ impl Recorder {
         self.total = energy.total();
     }
 
-    /// Enters what a phase after Verlet's did to the entry that `entry` picks.
+    /// Enters what a phase after the integrator's did to the entry that `entry` picks.
     pub(crate) fn corrected(
         &mut self,
         x: &Points,

@@ -1,6 +1,6 @@
 //! The checks of a frame, and the state that it began with.
 
-use super::State;
+use super::state::State;
 use crate::cloth::energy::Energy;
 use crate::cloth::guard::first_lost;
 use crate::cloth::ledger::Recorder;
@@ -14,16 +14,17 @@ impl State {
 
     /// Notes the state before a frame, for the search after a failure.
     pub(super) fn note_frame_start(&mut self) {
-        let [x, last] = &mut self.frame_start;
-        x.copy_from(&self.x);
-        last.copy_from(&self.last);
+        let now = [&self.x, &self.last].into_iter().chain(self.scheme.memory());
+        self.frame_start.iter_mut().zip(now).for_each(|(kept, now)| kept.copy_from(now));
         self.recorder.iter_mut().for_each(Recorder::begin_frame);
     }
 
     /// The state before the frame.
     pub(super) fn at_frame_start(&self) -> Self {
-        let [x, last] = self.frame_start.clone();
-        let mut state = Self { x, last, ..self.clone() };
+        let mut state = self.clone();
+        let Self { x, last, scheme, .. } = &mut state;
+        let then = [x, last].into_iter().chain(scheme.memory_mut());
+        then.zip(&self.frame_start).for_each(|(then, kept)| then.copy_from(kept));
         state.recorder.iter_mut().for_each(Recorder::restart_frame);
         state
     }

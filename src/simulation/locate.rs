@@ -1,6 +1,6 @@
 //! Where a frame went wrong: found by making its steps once more and looking after each.
 
-use super::State;
+use super::state::State;
 use crate::cloth::grid::Grid;
 use crate::cloth::guard::{RANGE, first_lost};
 use crate::cloth::ledger::Recorder;
