@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{check, compare, export, info, render, simulate, stability};
+use super::{animate, check, compare, export, info, render, simulate, stability};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -46,6 +46,8 @@ struct Global {
 pub(super) enum Command {
     /// Simulate a scene and draw one picture of it
     Render(render::Args),
+    /// Draw a scene in motion: PNG files, an animated PNG, a GIF or a film
+    Animate(animate::Args),
     /// Simulate a scene without drawing it
     Simulate(simulate::Args),
     /// Write the simulated cloth as a mesh (OBJ)

@@ -4,15 +4,18 @@
 //! to standard error. The exit code is that of the error's [`Kind`].
 
 mod advance;
+mod animate;
 mod arguments;
 mod bench;
 mod check;
 mod compare;
 mod counts;
 mod export;
+mod film;
 mod guard;
 mod info;
 mod look;
+mod moments;
 mod outputs;
 mod progress;
 mod render;
@@ -21,6 +24,7 @@ mod signals;
 mod simulate;
 mod stability;
 mod table;
+mod target;
 mod ui;
 
 use std::process::ExitCode;
@@ -86,6 +90,7 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
     })?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),
+        Command::Animate(args) => animate::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
