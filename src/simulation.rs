@@ -92,7 +92,7 @@ impl Simulation {
 
     /// Makes the steps of one frame, then checks that every position is a number within ±1e15 m
     /// and, unless [`Simulation::allow_unstable`] was called, that the cloth holds no more energy
-    /// than its forces can give it (`src/cloth/guard.rs` says how much that is).
+    /// than its forces can give it, nor got more if a ledger is kept (see `src/cloth/guard.rs`).
     ///
     /// # Errors
     /// [`Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
@@ -176,7 +176,7 @@ impl Simulation {
     /// [`Kind::Scene`] when the ledger does not fit in memory.
     pub fn record_ledger(&mut self) -> Result<()> {
         if let Some(cloth) = &mut self.cloth {
-            cloth.recorder = Some(Recorder::new(cloth.x.len())?);
+            cloth.recorder = Some(Recorder::new(cloth.x.len(), true)?);
         }
         Ok(())
     }

@@ -11,7 +11,8 @@ use crate::scene::{Integrator, Scene};
 use crate::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
-/// blow up is refused, unless that is allowed.
+/// blow up is refused, unless that is allowed, and one that may blow up behind the stretch limit is
+/// watched by a ledger.
 ///
 /// # Errors
 /// [`Kind::Unstable`] for such a cloth; otherwise as [`Simulation::new`].
@@ -42,6 +43,9 @@ pub(super) fn start(
             session.ui.note(&format!("warning: {error}"));
         } else if !stability.is_always_stable() {
             session.ui.note(&format!("warning: {}", possible(&stability, scene.sim.steps_per_frame)));
+            if !allow_unstable && scene.sim.stretch_limit.is_some() {
+                simulation.record_ledger()?;
+            }
         }
     }
     Ok(simulation)

@@ -66,6 +66,10 @@ impl Ledger {
 pub(crate) struct Recorder {
     /// The entries since the start of the recording.
     pub(crate) ledger: Ledger,
+    /// Whether the cloth is judged by the entries; not if it is only searched for a fault.
+    pub(crate) judged: bool,
+    /// The entries at the start of the frame.
+    frame_start: Ledger,
     /// How each point moved in the step before, in metres.
     before: Points,
     /// Energy of the springs before the step, in J.
@@ -77,18 +81,29 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// An empty ledger for a cloth of `points` points.
+    /// An empty ledger for a cloth of `points` points, by which it may be `judged`.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(points: usize) -> Result<Self> {
-        Ok(Self {
-            ledger: Ledger::default(),
-            before: Points::zeros(points)?,
-            spring: 0.0,
-            gravitational: 0.0,
-            total: 0.0,
-        })
+    pub(crate) fn new(points: usize, judged: bool) -> Result<Self> {
+        let (ledger, before) = (Ledger::default(), Points::zeros(points)?);
+        Ok(Self { ledger, judged, frame_start: ledger, before, spring: 0.0, gravitational: 0.0, total: 0.0 })
+    }
+
+    /// Notes the entries at the start of a frame.
+    pub(crate) fn begin_frame(&mut self) {
+        self.frame_start = self.ledger;
+    }
+
+    /// Takes the entries back to the start of the frame.
+    pub(crate) fn restart_frame(&mut self) {
+        self.ledger = self.frame_start;
+    }
+
+    /// What each part put in since the frame began, by name.
+    pub(crate) fn since_frame_start(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let pairs = self.ledger.entries().into_iter().zip(self.frame_start.entries());
+        pairs.map(|((name, now), (_, before))| (name, now - before))
     }
 
     /// Notes the state before a step.

@@ -2,6 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::{
+    clip,
+    setup::{Corner, Viewport},
+};
 use crate::{mesh::Attributes, shader::glsl::VertexProgram};
 
 /// What the vertex stage puts out.
@@ -9,6 +13,10 @@ use crate::{mesh::Attributes, shader::glsl::VertexProgram};
 pub(super) struct VertexBuffer {
     /// `gl_Position` per vertex: clip space.
     pub(super) positions: Vec<[f32; 4]>,
+    /// Each vertex in the window.
+    pub(super) corners: Vec<Corner>,
+    /// Of each vertex, the planes of the view volume that it lies outside of (see `clip`).
+    pub(super) outside: Vec<u8>,
     /// Varyings, `stride` numbers a vertex.
     pub(super) varyings: Vec<f32>,
     /// Varyings per vertex.
@@ -18,19 +26,26 @@ pub(super) struct VertexBuffer {
 /// Vertices that one thread takes at a time.
 const GROUP: usize = 1024;
 
-/// Runs `program` over `count` vertices.
+/// Runs `program` over `count` vertices and finds their places in the window.
 pub(super) fn run<const N: usize>(
     count: usize,
+    viewport: &Viewport,
     attributes: impl Fn(usize) -> Attributes + Sync,
     program: &impl VertexProgram<N>,
 ) -> VertexBuffer {
     let mut positions = vec![[0.0; 4]; count];
+    let mut corners = vec![Corner::default(); count];
+    let mut outside = vec![0; count];
     let mut varyings = vec![[0.0; N]; count];
-    let groups = positions.par_chunks_mut(GROUP).zip(varyings.par_chunks_mut(GROUP)).enumerate();
-    groups.for_each(|(group, (positions, varyings))| {
+    let shaded = positions.par_chunks_mut(GROUP).zip(varyings.par_chunks_mut(GROUP));
+    let placed = corners.par_chunks_mut(GROUP).zip(outside.par_chunks_mut(GROUP));
+    shaded.zip(placed).enumerate().for_each(|(group, ((positions, varyings), (corners, outside)))| {
         for (i, (position, varying)) in positions.iter_mut().zip(varyings).enumerate() {
             (*position, *varying) = program(&attributes(group * GROUP + i));
         }
+        for (&position, (corner, outside)) in positions.iter().zip(corners.iter_mut().zip(outside)) {
+            (*corner, *outside) = (viewport.corner(position), clip::outside(position));
+        }
     });
-    VertexBuffer { positions, varyings: varyings.into_flattened(), stride: N }
+    VertexBuffer { positions, corners, outside, varyings: varyings.into_flattened(), stride: N }
 }
