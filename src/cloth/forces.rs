@@ -11,6 +11,7 @@ use std::ops::Range;
 use super::grid::Grid;
 use super::springs::{FAMILIES, Family, SpringKind, Springs};
 use super::{Counters, Points, filled};
+use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
 use crate::scene::Vec3;
 
@@ -28,12 +29,9 @@ pub(crate) struct Forces {
     pub(crate) sum: Points,
     /// The pulls of row j, by component, in entry j mod 3.
     rows: [[Pulls; 3]; 3],
-    /// Adds up the pulls on one row.
-    add_up: AddUp,
+    /// Computes all forces, for the kinds of springs that there are.
+    compute: fn(&mut Self, &Points, &Springs, Vec3),
 }
-
-/// Sums one component of the forces on a row: out, weight, pulls of its row and the two below.
-type AddUp = fn(&mut [f64], f64, &Pulls, &Pulls, &Pulls);
 
 impl Forces {
     /// Room for the forces of `springs`.
@@ -48,22 +46,17 @@ impl Forces {
                 pulls[family.slot] = filled(springs.grid.width + 2 * PAD, 0.0)?;
             }
         }
-        Ok(Self { sum: Points::zeros(springs.grid.len())?, rows, add_up: add_up_for(springs) })
+        Ok(Self { sum: Points::zeros(springs.grid.len())?, rows, compute: compute_for(springs) })
     }
 
     /// Computes the force on every point at `x`: its `weight` and its springs, in N.
     pub(crate) fn compute(&mut self, x: &Points, springs: &Springs, weight: Vec3, counters: &mut Counters) {
-        let Grid { width, height } = springs.grid;
-        for j in 0..height + 2 {
-            self.pull_row(x, springs, j);
-            if let Some(done) = j.checked_sub(2) {
-                self.sum_row(done, done * width..(done + 1) * width, weight);
-            }
-        }
+        (self.compute)(self, x, springs, weight);
         counters.springs_evaluated += springs.len() as u64;
     }
 
     /// Computes the pulls of the springs that the points of row `j` made.
+    #[inline(always)]
     fn pull_row(&mut self, x: &Points, springs: &Springs, j: usize) {
         let pulls = &mut self.rows[j % 3];
         for family in &springs.families {
@@ -77,16 +70,49 @@ impl Forces {
     }
 
     /// Sums the forces on row `j`, whose points are `points`.
-    fn sum_row(&mut self, j: usize, points: Range<usize>, weight: Vec3) {
-        let [own, below, below2] = [0, 1, 2].map(|rows| &self.rows[(j + rows) % 3]);
+    #[inline(always)]
+    fn sum_row<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
+        &mut self,
+        j: usize,
+        points: Range<usize>,
+        weight: Vec3,
+    ) {
+        let [own, below, below2] = [&self.rows[j % 3], &self.rows[(j + 1) % 3], &self.rows[(j + 2) % 3]];
         let sum = [&mut self.sum.x, &mut self.sum.y, &mut self.sum.z];
         for (c, sum) in sum.into_iter().enumerate() {
-            (self.add_up)(&mut sum[points.clone()], weight[c], &own[c], &below[c], &below2[c]);
+            let sum = &mut sum[points.clone()];
+            add_up::<STRUCTURAL, SHEARING, BENDING>(sum, weight[c], &own[c], &below[c], &below2[c]);
+        }
+    }
+}
+
+/// All forces of a step, for the kinds of springs that there are.
+struct Compute<'a, const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool> {
+    forces: &'a mut Forces,
+    x: &'a Points,
+    springs: &'a Springs,
+    weight: Vec3,
+}
+
+impl<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool> Work
+    for Compute<'_, STRUCTURAL, SHEARING, BENDING>
+{
+    #[inline(always)]
+    fn run(self) {
+        let Self { forces, x, springs, weight } = self;
+        let Grid { width, height } = springs.grid;
+        for j in 0..height + 2 {
+            forces.pull_row(x, springs, j);
+            if let Some(done) = j.checked_sub(2) {
+                let points = done * width..(done + 1) * width;
+                forces.sum_row::<STRUCTURAL, SHEARING, BENDING>(done, points, weight);
+            }
         }
     }
 }
 
 /// The pulls of one family on the points of the row that starts at index `row`.
+#[inline(always)]
 fn pull(x: &Points, family: &Family, row: usize, out: [&mut [f64]; 3]) {
     let n = family.columns.len();
     let a = row + family.columns.start;
@@ -99,6 +125,7 @@ fn pull(x: &Points, family: &Family, row: usize, out: [&mut [f64]; 3]) {
 }
 
 /// `e · (k · (l - l0) / l)` for every pair of points a and b, and zero where they meet.
+#[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "the compiler trusts separate slices not to overlap")]
 fn pull_each(
     ax: &[f64],
@@ -129,22 +156,32 @@ fn pull_each(
     }
 }
 
-/// The sum for the kinds that `springs` has.
-fn add_up_for(springs: &Springs) -> AddUp {
+/// The computation for the kinds that `springs` has.
+fn compute_for(springs: &Springs) -> fn(&mut Forces, &Points, &Springs, Vec3) {
     let has = |kind| springs.has(kind);
     match (has(SpringKind::Structural), has(SpringKind::Shearing), has(SpringKind::Bending)) {
-        (false, false, false) => add_up::<false, false, false>,
-        (false, false, true) => add_up::<false, false, true>,
-        (false, true, false) => add_up::<false, true, false>,
-        (false, true, true) => add_up::<false, true, true>,
-        (true, false, false) => add_up::<true, false, false>,
-        (true, false, true) => add_up::<true, false, true>,
-        (true, true, false) => add_up::<true, true, false>,
-        (true, true, true) => add_up::<true, true, true>,
+        (false, false, false) => compute::<false, false, false>,
+        (false, false, true) => compute::<false, false, true>,
+        (false, true, false) => compute::<false, true, false>,
+        (false, true, true) => compute::<false, true, true>,
+        (true, false, false) => compute::<true, false, false>,
+        (true, false, true) => compute::<true, false, true>,
+        (true, true, false) => compute::<true, true, false>,
+        (true, true, true) => compute::<true, true, true>,
     }
 }
 
+fn compute<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
+    forces: &mut Forces,
+    x: &Points,
+    springs: &Springs,
+    weight: Vec3,
+) {
+    dispatch(Compute::<STRUCTURAL, SHEARING, BENDING> { forces, x, springs, weight });
+}
+
 /// Sums one component of the forces on a row in creation order.
+#[inline(always)]
 fn add_up<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
     out: &mut [f64],
     weight: f64,
@@ -153,9 +190,9 @@ fn add_up<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
     below2: &Pulls,
 ) {
     let n = out.len();
-    let [left, above] = [0, 1].map(|slot| made_by(own, slot, 0, n, STRUCTURAL));
-    let [upper_left, upper_right] = [2, 3].map(|slot| made_by(own, slot, 0, n, SHEARING));
-    let [left2, above2] = [4, 5].map(|slot| made_by(own, slot, 0, n, BENDING));
+    let (left, above) = (made_by(own, 0, 0, n, STRUCTURAL), made_by(own, 1, 0, n, STRUCTURAL));
+    let (upper_left, upper_right) = (made_by(own, 2, 0, n, SHEARING), made_by(own, 3, 0, n, SHEARING));
+    let (left2, above2) = (made_by(own, 4, 0, n, BENDING), made_by(own, 5, 0, n, BENDING));
     let from_right = made_by(own, 0, 1, n, STRUCTURAL);
     let from_right2 = made_by(own, 4, 2, n, BENDING);
     let from_lower_left = made_by(below, 3, -1, n, SHEARING);
@@ -197,6 +234,7 @@ fn add_up<const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
 
 /// The pulls of family `slot` that a row of `n` points gets from the points `right` columns to
 /// its right; nothing when the family does not exist.
+#[inline(always)]
 fn made_by(pulls: &Pulls, slot: usize, right: isize, n: usize, exists: bool) -> &[f64] {
     if exists { &pulls[slot][PAD.wrapping_add_signed(right)..][..n] } else { &[] }
 }
