@@ -72,7 +72,12 @@ impl SelfCollision {
     /// Whether two of the first `size` gathered positions may be too close.
     #[inline(always)]
     fn any_close(&self, size: usize) -> bool {
-        (0..size).any(|at| self.close_to_any(at, at + 1..size))
+        for at in 0..size {
+            if self.close_to_any(at, at + 1..size) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether the gathered position `at` may be too close to one of `others`.

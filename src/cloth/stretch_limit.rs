@@ -62,13 +62,15 @@ impl StretchLimit {
     /// Whether a spring made by the points of row `j` and `columns` may be too long.
     #[inline(always)]
     fn any_long(&self, x: &Points, springs: &Springs, j: usize, columns: &Range<usize>) -> bool {
-        springs.families.iter().zip(&self.reach).filter(|(family, _)| family.rows.contains(&j)).any(
-            |(family, reach)| {
-                let start = columns.start.max(family.columns.start);
-                let n = columns.end.min(family.columns.end).saturating_sub(start);
-                any_reaches(x, j * springs.grid.width + start, family.offset, n, reach)
-            },
-        )
+        for (family, reach) in springs.families.iter().zip(&self.reach) {
+            let start = columns.start.max(family.columns.start);
+            let n = columns.end.min(family.columns.end).saturating_sub(start);
+            let row = j * springs.grid.width;
+            if family.rows.contains(&j) && any_reaches(x, row + start, family.offset, n, reach) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Shortens the springs made by the points of row `j` and `columns`.
