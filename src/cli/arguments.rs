@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{check, compare, export, info, render, simulate};
+use super::{animate, check, compare, export, info, render, simulate, stability};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -46,6 +46,8 @@ struct Global {
 pub(super) enum Command {
     /// Simulate a scene and draw one picture of it
     Render(render::Args),
+    /// Draw a scene in motion: PNG files, an animated PNG, a GIF or a film
+    Animate(animate::Args),
     /// Simulate a scene without drawing it
     Simulate(simulate::Args),
     /// Write the simulated cloth as a mesh (OBJ)
@@ -56,6 +58,8 @@ pub(super) enum Command {
     Info(info::Args),
     /// Tell everything that is wrong in scene files
     Check(check::Args),
+    /// Map where a cloth is stable, over stiffness, density and step
+    Stability(stability::Args),
 }
 
 impl Arguments {

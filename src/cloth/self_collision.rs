@@ -11,7 +11,7 @@ use super::grid::{Grid, Pins};
 use super::{Counters, Points};
 use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
-use crate::scene::{Cloth, SelfCollision as Mode, Sim, Vec3};
+use crate::scene::{Cloth, Sim, Vec3};
 
 /// Just above 1: covers the rounding of a squared length, so that no close pair is overlooked.
 const MARGIN: f64 = 1.0 + 1e-12;
@@ -32,25 +32,21 @@ pub(crate) struct SelfCollision {
 }
 
 impl SelfCollision {
-    /// Self-collision of `cloth`, whose points start at `x`; none when another kind is
-    /// asked for or the cloth has no thickness.
+    /// Self-collision of `cloth`, whose points start at `x`.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Option<Self>> {
+    pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Self> {
         let distance = 2.0 * cloth.thickness;
-        if sim.self_collision != Mode::SameBox || distance == 0.0 {
-            return Ok(None);
-        }
         let bx = 3.0 * cloth.width / grid.width as f64;
         let by = 3.0 * cloth.height / grid.height as f64;
-        Ok(Some(Self {
+        Ok(Self {
             distance,
             reach: distance * distance * MARGIN,
             steps_per_frame: f64::from(sim.steps_per_frame),
             boxes: Boxes::new([bx, by, bx.max(by)], x)?,
             positions: Points::zeros(grid.len())?,
-        }))
+        })
     }
 
     /// Moves apart the close points of every box; pinned points stay.

@@ -13,7 +13,7 @@ use super::springs::{Family, Springs};
 use super::{Counters, Points, dot, filled};
 use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
-use crate::scene::{Sim, Vec3};
+use crate::scene::Vec3;
 
 /// Points in a block.
 const BLOCK: usize = 8;
@@ -33,12 +33,11 @@ pub(crate) struct StretchLimit {
 }
 
 impl StretchLimit {
-    /// The limit that `sim` sets to `springs`, or none.
+    /// The limit of `springs` to a strain of `limit`, in so many passes a step.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(sim: &Sim, springs: &Springs) -> Result<Option<Self>> {
-        let Some(limit) = sim.stretch_limit else { return Ok(None) };
+    pub(crate) fn new(limit: f64, passes: u32, springs: &Springs) -> Result<Self> {
         let factor = 1.0 + limit;
         let mut reach = Vec::with_capacity(springs.families.len());
         for family in &springs.families {
@@ -48,7 +47,7 @@ impl StretchLimit {
             }
             reach.push(squares);
         }
-        Ok(Some(Self { factor, passes: sim.stretch_passes, reach }))
+        Ok(Self { factor, passes, reach })
     }
 
     /// Shortens the springs that are too long, in creation order.

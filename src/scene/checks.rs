@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::format::Node;
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Cloth, Damping, Scene, SelfCollision};
+use super::{Cloth, Damping, Integrator, Scene, SelfCollision, Start};
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -33,6 +33,7 @@ impl Checks<'_> {
             self.thickness(cloth);
             self.damping(cloth);
         }
+        self.start();
         self.near_and_far();
         self.object_count();
     }
@@ -136,6 +137,20 @@ impl Checks<'_> {
             .also(self.span("sim.damping"), "`sim.damping` is set here")
             .help("lower `cloth.damping` below 100, or leave out `sim.damping`");
         self.error(place, "must be below 100", finding);
+    }
+
+    /// Half a step back is where Verlet's scheme has its velocity; the others have it at the start.
+    fn start(&mut self) {
+        let sim = &self.scene.sim;
+        let alone = sim.start == Start::HalfStep && sim.integrator != Integrator::Verlet;
+        if !alone || !self.clean(&["sim.start", "sim.integrator"]) {
+            return;
+        }
+        let finding = Finding::new("scene::start", "only Verlet's scheme starts with half a step")
+            .key("sim.start")
+            .also(self.span("sim.integrator"), "`sim.integrator` is set here")
+            .help("leave out `sim.start`: other integrators know the velocity at the start");
+        self.error(self.span("sim.start"), "of Verlet's scheme", finding);
     }
 
     fn near_and_far(&mut self) {

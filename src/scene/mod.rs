@@ -134,6 +134,8 @@ pub struct Sim {
     pub gravity: Vec3,
     /// The scheme that advances the positions.
     pub integrator: Integrator,
+    /// Passes over the springs in a step of [`Integrator::Xpbd`] (1..=1e6); others do not read it.
+    pub iterations: u32,
     /// The arithmetic of the positions.
     pub precision: Precision,
     /// How the first step knows the velocity.
@@ -155,6 +157,8 @@ pub struct Sim {
 pub enum Integrator {
     /// Position Verlet, the report's.
     Verlet,
+    /// Extended position-based dynamics, `src/cloth/xpbd.rs`.
+    Xpbd,
 }
 
 /// The arithmetic of the positions (`sim.precision`).

@@ -22,8 +22,16 @@ impl Shader {
     }
 }
 
+impl Integrator {
+    /// The name of this integrator.
+    pub fn name(self) -> &'static str {
+        INTEGRATORS.iter().find(|(_, integrator)| *integrator == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// `sim.integrator`
-pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[("verlet", Integrator::Verlet)];
+pub(super) const INTEGRATORS: &[(&str, Integrator)] =
+    &[("verlet", Integrator::Verlet), ("xpbd", Integrator::Xpbd)];
 
 /// `sim.precision`
 pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64)];
