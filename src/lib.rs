@@ -51,12 +51,12 @@
 pub mod error;
 pub mod math;
 pub mod scene;
+mod dispatch;
 pub mod cloth;
 pub mod simulation;
 pub mod texture;
 pub mod cubemap;
 pub mod texture_source;
-mod dispatch;
 pub mod lanes;
 pub mod mesh;
 pub mod camera;

@@ -88,7 +88,8 @@ impl Chunk {
     }
 
     fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
-        let [a, b, c] = corners.map(|corner| vertices.outside[corner as usize]);
+        let outside = |corner: u32| vertices.outside[corner as usize];
+        let (a, b, c) = (outside(corners[0]), outside(corners[1]), outside(corners[2]));
         if (a | b | c) & FAR != 0 {
             self.counts.non_finite += 1;
         } else if a & b & c != 0 {
@@ -159,7 +160,8 @@ impl Chunk {
         buffer: &VertexBuffer,
         viewport: &Viewport,
     ) {
-        let corners = vertices.map(|vertex| self.corner(vertex, buffer));
+        let [a, b, c] = vertices;
+        let corners = [self.corner(a, buffer), self.corner(b, buffer), self.corner(c, buffer)];
         match viewport.triangle(corners, vertices, source) {
             Ok(triangle) if triangle.scale.is_finite() => {
                 self.triangles.push(triangle);

@@ -55,7 +55,7 @@ impl Bins {
 
     /// Calls `visit` with the number of every tile that bounds touch.
     fn touched(&mut self, Bounds { x, y }: Bounds, mut visit: impl FnMut(&mut Self, usize)) {
-        let [first, last] = [[x[0], y[0]], [x[1], y[1]]].map(tile_of);
+        let (first, last) = (tile_of([x[0], y[0]]), tile_of([x[1], y[1]]));
         for row in first[1]..=last[1] {
             for column in first[0]..=last[0] {
                 visit(self, (row - self.first[1]) * self.size[0] + column - self.first[0]);
@@ -76,7 +76,7 @@ impl Bins {
 
 /// Column and row of the tile that a pixel lies in.
 fn tile_of(pixel: [u16; 2]) -> [usize; 2] {
-    pixel.map(|p| usize::from(p) / TILE)
+    [usize::from(pixel[0]) / TILE, usize::from(pixel[1]) / TILE]
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub(super) struct ClipVertex {
 }
 
 /// Signed distance to each plane, positive inside: near, far, left, right, bottom, top.
+#[inline(always)]
 fn distances([x, y, z, w]: [f64; 4]) -> [f64; 6] {
     [w + z, w - z, w + x, w - x, w + y, w - y]
 }
@@ -27,8 +28,10 @@ const LIMIT: f32 = 4_294_967_296.0;
 pub(super) const FAR: u8 = 1 << 6;
 
 /// Which of the six planes a position lies outside of, one bit a plane; and [`FAR`].
+#[inline(always)]
 pub(super) fn outside(position: [f32; 4]) -> u8 {
-    let distances = distances(position.map(f64::from));
+    let [x, y, z, w] = position;
+    let distances = distances([x.into(), y.into(), z.into(), w.into()]);
     let far = !position.iter().all(|c| c.abs() <= LIMIT);
     (0..6).fold(u8::from(far) << 6, |bits, plane| bits | (u8::from(distances[plane] < 0.0) << plane))
 }

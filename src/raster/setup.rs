@@ -75,12 +75,14 @@ pub(super) enum Dropped {
 
 impl Viewport {
     /// A vertex from its clip-space position.
+    #[inline(always)]
     pub(super) fn corner(&self, position: [f32; 4]) -> Corner {
         let window = self.window(position);
         Corner { window, snapped: self.snap(window) }
     }
 
     /// The window position of a clip-space position, as GL defines it: r = 1/w, ndc = clip·r.
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "window coordinates are f32 by definition")]
     fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowVertex {
         let r = 1.0 / w;
@@ -90,6 +92,7 @@ impl Viewport {
     }
 
     /// The position on the snapping grid, rounded half to even; y turned down.
+    #[inline(always)]
     fn snap(&self, v: WindowVertex) -> Option<[i32; 2]> {
         let finite = v.z.is_finite() && v.r.is_finite();
         let grid = |c: f32| (c * SUBPIXELS as f32).round_ties_even();

@@ -7,6 +7,8 @@
 //! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
 //! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
+use std::hint::black_box;
+
 use super::{
     assemble::Handle,
     framebuffer::{TILE, TILE_PIXELS, Tile},
@@ -31,10 +33,15 @@ impl Edge {
         self.at + self.column * x as i32 + self.row * y as i32
     }
 
-    /// The most that the value grows within eight pixels of a row.
+    /// What the value grows by from the first of eight pixels of a row to each of them.
     #[inline(always)]
-    fn growth(&self) -> i32 {
-        (self.column * (WIDTH as i32 - 1)).max(0)
+    fn steps(&self) -> [i32; WIDTH] {
+        // Factors that the compiler sees it would shift or leave out, and then not vectorise.
+        let mut steps = black_box([0, 1, 2, 3, 4, 5, 6, 7]);
+        for step in &mut steps {
+            *step *= self.column;
+        }
+        steps
     }
 }
 
@@ -98,15 +105,18 @@ fn draw_sample(
 ) {
     let dx = f64::from(offset[0]) / f64::from(SUBPIXELS);
     let dy = f64::from(offset[1]) / f64::from(SUBPIXELS);
-    let [a, b, c] = edges;
+    let steps = [edges[0].steps(), edges[1].steps(), edges[2].steps()];
+    let most = [steps[0][7].max(0), steps[1][7].max(0), steps[2][7].max(0)];
     for y in bounds.y[0]..=bounds.y[1] {
-        let window_y = height as f64 - ((tile.top + y) as f64 + dy);
+        let window_y = height as f64 - (whole(tile.top + y) + dy);
         let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
         let row = base + y * TILE;
-        for x in (bounds.x[0]..=bounds.x[1]).step_by(WIDTH) {
-            let x = x.min(TILE - WIDTH);
-            let [at_a, at_b, at_c] = [a.value(x, y), b.value(x, y), c.value(x, y)];
-            if (at_a + a.growth()) | (at_b + b.growth()) | (at_c + c.growth()) < 0 {
+        let mut start = bounds.x[0];
+        while start <= bounds.x[1] {
+            let x = start.min(TILE - WIDTH);
+            start += WIDTH;
+            let at = [edges[0].value(x, y), edges[1].value(x, y), edges[2].value(x, y)];
+            if (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0 {
                 continue;
             }
             let (Some(depths), Some(visible)) =
@@ -115,22 +125,32 @@ fn draw_sample(
                 continue;
             };
             let mut signs = [0; WIDTH];
-            for (i, sign) in (0..).zip(&mut signs) {
+            for (i, sign) in signs.iter_mut().enumerate() {
                 // Negative where the pixel is outside of any edge.
-                *sign = (at_a + a.column * i) | (at_b + b.column * i) | (at_c + c.column * i);
+                *sign = (at[0] + steps[0][i]) | (at[1] + steps[1][i]) | (at[2] + steps[2][i]);
             }
-            let window_x = (tile.left + x) as f64 + dx - plane.origin[0];
+            let window_x = whole(tile.left + x) + dx - plane.origin[0];
             depth_test(&signs, row_depth, plane.column, window_x, handle, depths, visible);
         }
     }
 }
 
+/// A column or row of the picture as a number.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "pictures are at most 16384 wide"
+)]
+fn whole(pixel: usize) -> f64 {
+    f64::from(pixel as i32)
+}
+
 /// The columns of eight pixels, from the first one's.
 const COLUMNS: Wide<f64> = Wide([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
 
-/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
-///
-/// Without a branch a pixel: what is kept is chosen bit by bit, which the compiler surely vectorises.
+/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive. No branch a
+/// pixel, so that it is vectorised.
 #[inline(always)]
 fn depth_test(
     signs: &[i32; WIDTH],
@@ -147,10 +167,12 @@ fn depth_test(
     // A sample may lie outside of the unsnapped corners, and the plane there below 0.
     let z = z.select_less(Lanes::splat(0.0), Lanes::splat(0.0), z);
     for i in 0..WIDTH {
-        let nearer = u32::from(z.0[i] < depths[i]).wrapping_neg();
-        let pass = nearer & !(signs[i] >> 31).cast_unsigned();
-        depths[i] = f32::from_bits(z.0[i].to_bits() & pass | depths[i].to_bits() & !pass);
-        visible[i] = handle & pass | visible[i] & !pass;
+        // Outside, all bits are set: a NaN, which is not nearer than anything.
+        let z = f32::from_bits(z.0[i].to_bits() | (signs[i] >> 31).cast_unsigned());
+        let pass = z < depths[i];
+        depths[i] = if pass { z } else { depths[i] };
+        let kept = u32::from(pass).wrapping_neg();
+        visible[i] = (handle & kept) | (visible[i] & !kept);
     }
 }
 

@@ -6,7 +6,11 @@ use super::{
     clip,
     setup::{Corner, Viewport},
 };
-use crate::{mesh::Attributes, shader::glsl::VertexProgram};
+use crate::{
+    dispatch::{Work, dispatch},
+    mesh::Attributes,
+    shader::glsl::VertexProgram,
+};
 
 /// What the vertex stage puts out.
 #[derive(Clone, Debug)]
@@ -26,6 +30,25 @@ pub(super) struct VertexBuffer {
 /// Vertices that one thread takes at a time.
 const GROUP: usize = 1024;
 
+/// Finds the places of vertices in the window.
+struct Place<'a> {
+    viewport: &'a Viewport,
+    positions: &'a [[f32; 4]],
+    corners: &'a mut [Corner],
+    outside: &'a mut [u8],
+}
+
+impl Work for Place<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let places = self.corners.iter_mut().zip(self.outside);
+        for (&position, (corner, outside)) in self.positions.iter().zip(places) {
+            *corner = self.viewport.corner(position);
+            *outside = clip::outside(position);
+        }
+    }
+}
+
 /// Runs `program` over `count` vertices and finds their places in the window.
 pub(super) fn run<const N: usize>(
     count: usize,
@@ -43,9 +66,7 @@ pub(super) fn run<const N: usize>(
         for (i, (position, varying)) in positions.iter_mut().zip(varyings).enumerate() {
             (*position, *varying) = program(&attributes(group * GROUP + i));
         }
-        for (&position, (corner, outside)) in positions.iter().zip(corners.iter_mut().zip(outside)) {
-            (*corner, *outside) = (viewport.corner(position), clip::outside(position));
-        }
+        dispatch(Place { viewport, positions, corners, outside });
     });
     VertexBuffer { positions, corners, outside, varyings: varyings.into_flattened(), stride: N }
 }
