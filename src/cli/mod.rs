@@ -19,6 +19,7 @@ mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod study;
 mod table;
 mod ui;
 
@@ -89,6 +90,7 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
         Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
     }
 }

@@ -36,6 +36,11 @@ impl SceneArgs {
         Ok(loaded.scene)
     }
 
+    /// The changes as the loader takes them.
+    pub(super) fn overrides(&self) -> Overrides {
+        self.changes.overrides()
+    }
+
     /// Every file that is read.
     pub(super) fn inputs(&self) -> Vec<&Path> {
         [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()
