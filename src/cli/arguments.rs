@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{check, compare, export, info, render, simulate, study};
+use super::{check, compare, export, info, render, simulate, stability, study};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -58,6 +58,8 @@ pub(super) enum Command {
     Info(info::Args),
     /// Tell everything that is wrong in scene files
     Check(check::Args),
+    /// Map where a cloth is stable, over stiffness, density and step
+    Stability(stability::Args),
 }
 
 impl Arguments {

@@ -19,6 +19,7 @@ mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod stability;
 mod study;
 mod table;
 mod ui;
@@ -92,5 +93,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Info(args) => info::run(args, &session),
         Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Stability(args) => stability::run(args, &session),
     }
 }
