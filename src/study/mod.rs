@@ -19,7 +19,7 @@ use crate::texture_source::TextureSource;
 use hull::{Advice, advice, hull};
 use matrix::{Extent, METHODS, Panel, Source, panels};
 use pictures::Pictures;
-use reference::{Reference, converge};
+use reference::{COMPARED, DRAWN, Reference, converge};
 use runs::{Measured, Outcome};
 use store::Store;
 
@@ -57,7 +57,7 @@ pub fn steps(source: &Source, extent: &Extent) -> Result<u64> {
     let tenths = |rate: u32| u64::from(rate / 10 * extent.last());
     let of = |panel: &Panel| {
         let cells: u64 = panel.cells.iter().map(|cell| tenths(cell.rate)).sum();
-        cells * repeats + if panel.cells.is_empty() { 0 } else { 25 * tenths(panel.finest) }
+        cells * repeats + if panel.cells.is_empty() { 0 } else { 31 * tenths(panel.finest) }
     };
     Ok(panels(source, extent)?.iter().map(of).sum())
 }
@@ -74,7 +74,7 @@ pub fn run(
     store: &Store,
     watch: &(dyn Fn(u32) -> Result<()> + Sync),
 ) -> Result<Study> {
-    // References may use all cores: nothing of them is timed.
+    // References run side by side: nothing of them is timed.
     let (panels, left_out): (Vec<Panel>, Vec<Panel>) =
         panels(source, extent)?.into_iter().partition(|panel| !panel.cells.is_empty());
     let with_reference = |panel: Panel| {
@@ -106,19 +106,21 @@ impl PanelStudy {
     /// The number of the last moment at which most cells can be told from the reference.
     pub fn moment(&self) -> usize {
         let told = |moment: &usize| {
-            let ok = self.cells.iter().filter(|cell| cell.outcome == Outcome::Ok);
-            let (above, all) = ok.fold((0, 0), |(above, all), cell| {
-                (above + usize::from(self.is_compared(cell, *moment)), all + 1)
-            });
-            2 * above >= all
+            let sound: Vec<_> = self.cells.iter().filter(|cell| cell.outcome == Outcome::Ok).collect();
+            let above = sound.iter().filter(|cell| self.is_above(cell, *moment, COMPARED)).count();
+            2 * above >= sound.len()
         };
         (0..self.reference.floor.len()).rev().find(told).unwrap_or(0)
     }
 
     /// Whether the error of a cell at a moment can be told from that of the reference.
     pub fn is_compared(&self, cell: &Measured, moment: usize) -> bool {
+        self.is_above(cell, moment, DRAWN)
+    }
+
+    fn is_above(&self, cell: &Measured, moment: usize, part: f64) -> bool {
         let pair = cell.errors.get(moment).zip(self.reference.floor.get(moment));
-        pair.is_some_and(|(error, floor)| error.is_above(floor))
+        pair.is_some_and(|(error, floor)| error.is_above(floor, part))
     }
 
     /// Cost and error of each cell at the panel's moment; no number for cells that are not sound or not

@@ -137,7 +137,8 @@ pub fn measure(
     let floor = Difference::between(&converged, &coarser).rmse;
     let textures = textures.clone();
     let mut pictures = Pictures { scene, textures, points, converged, floor, drawn: Vec::new() };
-    for round in 0..extent.repeats {
+    // A picture takes so little time that it can be drawn often.
+    for round in 0..4 * extent.repeats {
         for (number, way) in ways(&pictures.scene, extent).into_iter().enumerate() {
             watch(0)?;
             pictures.measure_way(number, way, round, store)?;
@@ -220,6 +221,21 @@ impl Pictures {
         let picture = Renderer::new(&scene, &self.textures)?.draw(&self.points, &way.options());
         let rgba = picture.rgb.chunks_exact(3).map(|c| [c[0], c[1], c[2], 255]).collect();
         Ok(Pixels { width: picture.width, height: picture.height, rgba })
+    }
+
+    /// How many pixels differ between fragment programs in binary32 and in binary64, most of all pairs of
+    /// ways that differ in nothing else, and by how many levels of 255 at most.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn rounding(&self) -> Result<(u64, usize)> {
+        let mut most = (0, 0);
+        for way in self.drawn.iter().map(|drawn| drawn.way).filter(|way| !way.double) {
+            let difference =
+                Difference::between(&self.draw(&way)?, &self.draw(&Way { double: true, ..way })?);
+            most = (most.0.max(difference.differing()), most.1.max(difference.max()));
+        }
+        Ok(most)
     }
 
     /// Makes repetition `round` of way `number`, unless it is kept.

@@ -14,7 +14,7 @@ use crate::output::png::{self, Effort, Pixels};
 /// What the page adds to the style of every page: plots side by side where there is room, at most as
 /// large as their text is meant to be read.
 const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
-.plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}td.name{white-space:normal}</style>\n";
+.plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}td:nth-child(2),td.name{white-space:normal;text-align:left}</style>\n";
 
 /// The page of `study` of the scene called `scene`.
 ///
@@ -23,7 +23,7 @@ const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
 pub fn page(study: &Study, scene: &str) -> Result<String> {
     let mut text = page::head(&format!("Speed against accuracy: {scene}")) + STYLE;
     text += &format!("<p>{}</p>\n", introduction(study));
-    text += "<h2>If you can pay this, use that</h2>\n";
+    text += "<h2>If you can pay this, use that</h2>\n<p>Paid is wall time: per simulated second, and per picture.</p>\n";
     for panel in &study.panels {
         text += &format!("<h3>{}</h3>\n{}", heading(panel), tables::advice(panel));
     }
@@ -53,7 +53,7 @@ fn introduction(study: &Study) -> String {
          it costs. Up: how far its points are from where they should be, as the root of the mean squared \
          distance. The reference is the model itself (damping per second, no stretch limit, no \
          self-collision) with so many steps that halving them changes less than the grey floor; errors are \
-         compared at {} s, and only where the floor is below 1 % of them. Times were measured one run after \
+         taken at {} s, and drawn from ten times the floor on. Times were measured one run after \
          the other on this machine, each the median of up to {} that were interleaved; springs visited are \
          counted and the same on every machine.",
         times.join(", "),
@@ -94,10 +94,13 @@ fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
 
 fn picture_section(pictures: &Pictures) -> Result<String> {
     let [width, height] = pictures.size();
+    let (pixels, levels) = pictures.rounding()?;
     let mut text = format!(
         "<h2>Pictures</h2>\n<p>{width} × {height} pixels at the scene's time. Across: the time to draw one. Up: the \
          root of the mean squared difference from a converged picture (256 samples a pixel, binary64, \
-         bilinear filter), in levels of 255.</p>\n<div class=\"plots\">\n{}</div>\n{}",
+         bilinear filter), in levels of 255; grey: how far that one is from one with 64 samples. Fragment \
+         programs in binary32 instead of binary64 change at most {pixels} pixels of a picture, by at most {levels} of \
+         255.</p>\n<div class=\"plots\">\n{}</div>\n{}",
         plots::pictures(pictures),
         tables::ways(pictures),
     );

@@ -141,10 +141,10 @@ pub fn measure(
 }
 
 impl Measured {
-    /// Whether the repetition number `round` was made or would take too long.
+    /// Whether the repetition number `round` was made, would take too long, or tells nothing.
     fn is_done(&self, round: usize, extent: &Extent) -> bool {
         let spent = self.walls.iter().sum::<f64>() * 0.1 * f64::from(extent.last());
-        self.walls.len() > round || spent > extent.patience
+        self.outcome == Outcome::Lost || self.walls.len() > round || spent > extent.patience
     }
 }
 

@@ -9,7 +9,11 @@ use crate::output::axis::Axis;
 use crate::output::plot::{Marker, Plot, Style};
 
 /// How the hull is drawn: a broad line under the points.
-const HULL: Style = Style { color: "--ink", marker: Marker::Cross, hollow: true, dashed: false, stroke: 4.0 };
+const HULL: Style = Style { color: "--ink", marker: Marker::None, hollow: true, dashed: false, stroke: 4.0 };
+
+/// The floor in the legend.
+const FLOOR: Style =
+    Style { color: "--line", marker: Marker::None, hollow: false, dashed: false, stroke: 10.0 };
 
 /// Cost and error of the cells of a panel at its moment.
 pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, number: usize) -> String {
@@ -26,8 +30,8 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     let [left, right] = x.range();
     plot.area(
         [[left, bottom], [right, floor.max(bottom)]],
-        "--soft",
-        0.3,
+        "--line",
+        0.8,
         "self-difference of the reference",
     );
     guides(&mut plot, &x, &y);
@@ -53,7 +57,7 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     }
     plot.entry(HULL, "Pareto hull");
     plot.entry(Style::GUIDE, "slopes 1 and 2");
-    plot.entry(Style { stroke: 6.0, hollow: false, ..Style::GUIDE }, "floor of the reference");
+    plot.entry(FLOOR, "floor of the reference");
     plot.finish(&format!("p{number}{}", if cost == Cost::Wall { "wall" } else { "springs" }))
 }
 
@@ -89,8 +93,9 @@ fn guides(plot: &mut Plot, x: &Axis, y: &Axis) {
         let to = (from * crate::math::pow(top / bottom, 1.0 / slope)).min(right);
         let end = [to, top * crate::math::pow(from / to, slope)];
         plot.line(&[[from, top], end], Style::GUIDE);
-        let middle = [(from * to).sqrt(), (top * end[1]).sqrt()];
-        plot.note(middle, name);
+        // Away from the other one's text: three quarters of the way down.
+        let part = |a: f64, b: f64| a * crate::math::pow(b / a, 0.75);
+        plot.note([part(from, to), part(top, end[1])], name);
     }
 }
 
@@ -106,8 +111,8 @@ pub(super) fn pictures(pictures: &Pictures) -> String {
     let [[left, right], [bottom, _]] = [x.range(), y.range()];
     plot.area(
         [[left, bottom], [right, pictures.floor.max(bottom)]],
-        "--soft",
-        0.3,
+        "--line",
+        0.8,
         "self-difference of the converged picture",
     );
     let along: Vec<_> = hull(&points).into_iter().map(|i| points[i]).collect();
@@ -126,5 +131,6 @@ pub(super) fn pictures(pictures: &Pictures) -> String {
         }
     }
     plot.entry(HULL, "Pareto hull");
+    plot.entry(FLOOR, "floor of the reference");
     plot.finish("pictures")
 }

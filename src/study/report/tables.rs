@@ -30,7 +30,7 @@ pub(super) fn advice(panel: &PanelStudy) -> String {
     });
     let time = panel.reference.floor.get(panel.moment()).map_or(0.0, |floor| floor.time);
     let error = format!("error at {time:.1} s (m)");
-    table(&["pay per simulated second", "use", &error, "takes (s/s)", "springs visited (1/s)"], rows)
+    table(&["pay", "use", &error, "takes (s/s)", "springs visited (1/s)"], rows)
 }
 
 /// What to draw with for which time.
@@ -46,7 +46,7 @@ pub(super) fn picture_advice(pictures: &Pictures) -> String {
             drawn.fragments.to_string(),
         ]
     });
-    table(&["pay per picture", "use", "error (of 255)", "takes (ms)", "fragments"], rows)
+    table(&["pay", "use", "error (of 255)", "takes (ms)", "fragments"], rows)
 }
 
 /// All cells of a panel.
