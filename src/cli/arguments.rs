@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{animate, check, compare, export, info, render, simulate, stability};
+use super::{animate, check, compare, export, info, render, simulate, stability, study};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -54,6 +54,8 @@ pub(super) enum Command {
     Export(export::Args),
     /// Tell how two pictures, or the pictures of two folders, differ
     Compare(compare::Args),
+    /// Measure speed against accuracy: methods and steps against a reference, ways of drawing
+    Study(study::Args),
     /// Tell what a scene needs and what is therefore left out
     Info(info::Args),
     /// Tell everything that is wrong in scene files

@@ -23,6 +23,7 @@ mod scene;
 mod signals;
 mod simulate;
 mod stability;
+mod study;
 mod table;
 mod target;
 mod ui;
@@ -95,6 +96,7 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
         Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Stability(args) => stability::run(args, &session),
     }
