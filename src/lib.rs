@@ -41,6 +41,7 @@
 //! | scene and positions → picture | [`render`] |
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
 //! | outcome over stiffness, density and step | [`stability_map`] |
+//! | the figures of the report and their page | [`gallery`] |
 //! | the commands | [`cli`] |
 //!
 //! # Determinism
@@ -65,4 +66,5 @@ pub mod raster;
 pub mod render;
 pub mod output;
 pub mod stability_map;
+pub mod gallery;
 pub mod cli;

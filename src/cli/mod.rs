@@ -10,6 +10,7 @@ mod check;
 mod compare;
 mod counts;
 mod export;
+mod gallery;
 mod guard;
 mod info;
 mod look;
@@ -92,5 +93,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Info(args) => info::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
     }
 }
