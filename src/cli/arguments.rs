@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{animate, check, compare, export, info, render, simulate, stability, study};
+use super::{animate, check, compare, export, gallery, info, render, simulate, stability, study};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -62,6 +62,8 @@ pub(super) enum Command {
     Check(check::Args),
     /// Map where a cloth is stable, over stiffness, density and step
     Stability(stability::Args),
+    /// Make every figure of the report, and a page of them
+    Gallery(gallery::Args),
 }
 
 impl Arguments {

@@ -12,6 +12,7 @@ mod compare;
 mod counts;
 mod export;
 mod film;
+mod gallery;
 mod guard;
 mod info;
 mod look;
@@ -99,5 +100,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
     }
 }

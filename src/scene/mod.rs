@@ -22,12 +22,13 @@ mod report;
 mod rule;
 mod scalar;
 mod source;
+mod stock;
 mod words;
 
 use nalgebra::Vector3;
 
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
-pub use load::{Loaded, MAX_FILE, Overrides, load, load_text};
+pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
 
 /// A point or direction in metres, world space, y up.
