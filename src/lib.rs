@@ -40,6 +40,9 @@
 //! | vertex stage → clip → set-up, bins → tiles → fragment stage | [`raster`] |
 //! | scene and positions → picture | [`render`] |
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
+//! | outcome over stiffness, density and step | [`stability_map`] |
+//! | speed against accuracy, measured | [`study`] |
+//! | the figures of the report and their page | [`gallery`] |
 //! | the commands | [`cli`] |
 //!
 //! # Determinism
@@ -50,12 +53,12 @@
 pub mod error;
 pub mod math;
 pub mod scene;
+mod dispatch;
 pub mod cloth;
 pub mod simulation;
 pub mod texture;
 pub mod cubemap;
 pub mod texture_source;
-mod dispatch;
 pub mod lanes;
 pub mod mesh;
 pub mod camera;
@@ -63,4 +66,7 @@ pub mod shader;
 pub mod raster;
 pub mod render;
 pub mod output;
+pub mod stability_map;
+pub mod study;
+pub mod gallery;
 pub mod cli;

@@ -4,22 +4,29 @@
 //! to standard error. The exit code is that of the error's [`Kind`].
 
 mod advance;
+mod animate;
 mod arguments;
 mod bench;
 mod check;
 mod compare;
 mod counts;
 mod export;
+mod film;
+mod gallery;
 mod guard;
 mod info;
 mod look;
+mod moments;
 mod outputs;
 mod progress;
 mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod stability;
+mod study;
 mod table;
+mod target;
 mod ui;
 
 use std::process::ExitCode;
@@ -85,10 +92,14 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
     })?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),
+        Command::Animate(args) => animate::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
         Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
     }
 }

@@ -1,6 +1,6 @@
 //! Where a frame went wrong: found by making its steps once more and looking after each.
 
-use super::State;
+use super::state::State;
 use crate::cloth::grid::Grid;
 use crate::cloth::guard::{RANGE, first_lost};
 use crate::cloth::ledger::Recorder;
@@ -51,9 +51,10 @@ impl State {
         if let Some(point) = first_lost(&self.x) {
             return format!("{} is lost (no number, or beyond {RANGE:e} m)", name(point, self.grid));
         }
-        let energy = self.motion_and_height();
+        let energy = self.watched_energy();
         let fastest = fastest_point(&self.x, &self.last).map_or(0, |(point, _)| point);
         let point = name(fastest, self.grid);
+        let what = if energy.spring > 0.0 { "motion, height and springs" } else { "motion and height" };
         match &self.recorder {
             Some(Recorder { ledger, judged: true, .. }) if !self.budget.is_broken(energy) => format!(
                 "springs and gravity have put in {:.4e} J, more than the {:.4e} J that they can, fastest is {point},",
@@ -61,8 +62,8 @@ impl State {
                 self.budget.exchange_limit(energy),
             ),
             _ => format!(
-                "motion and height hold {:.4e} J, more than the {:.4e} J that there can be, most in {point},",
-                energy.kinetic + energy.gravitational,
+                "{what} hold {:.4e} J, more than the {:.4e} J that there can be, most in {point},",
+                energy.total(),
                 self.budget.limit(energy),
             ),
         }

@@ -170,6 +170,29 @@ fn export_tells_programs_what_it_wrote() {
     );
 }
 
+/// An integrator without a largest step says so, is not refused, and is stopped when it gains energy.
+#[test]
+fn only_verlets_scheme_has_a_largest_step() {
+    let scratch = Scratch::new();
+    let path = scene("pinned2.json");
+    let coarse = ["--set", "sim.steps_per_frame=1", "--set", "cloth.ks=50000"];
+    let run =
+        |more: &[&str]| scratch.run(&[&["simulate", &path, "--frames", "20"], &coarse[..], more].concat());
+    let verlet = run(&[]);
+    assert!(verlet.code == Some(5) && verlet.stderr.contains("unstable before the first step"));
+    let xpbd = ["--set", "sim.integrator=xpbd"];
+    let stopped = run(&xpbd);
+    assert_eq!(stopped.code, Some(5), "{}", stopped.stderr);
+    assert!(stopped.stderr.contains("motion, height and springs hold"), "{}", stopped.stderr);
+    assert_eq!(run(&[&xpbd[..], &["--allow-unstable"]].concat()).code, Some(0));
+    let info = scratch.json(&[&["info", &path, "--json"], &xpbd[..]].concat());
+    assert_eq!(
+        (&info["cloth"]["integrator"], &info["cloth"]["stable"]),
+        (&"xpbd".into(), &"no step bound".into())
+    );
+    assert!(info["cloth"].get("dt_omega_rest").is_none());
+}
+
 #[test]
 fn info_counts_what_a_simulation_then_uses() {
     let scratch = Scratch::new();
