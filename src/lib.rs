@@ -40,6 +40,7 @@
 //! | vertex stage → clip → set-up, bins → tiles → fragment stage | [`raster`] |
 //! | scene and positions → picture | [`render`] |
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
+//! | outcome over stiffness, density and step | [`stability_map`] |
 //! | the commands | [`cli`] |
 //!
 //! # Determinism
@@ -63,4 +64,5 @@ pub mod shader;
 pub mod raster;
 pub mod render;
 pub mod output;
+pub mod stability_map;
 pub mod cli;

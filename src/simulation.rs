@@ -2,11 +2,11 @@
 
 mod guarded;
 mod locate;
+mod stiffness;
 mod stopwatch;
 
-pub use stopwatch::Timings;
-
 use stopwatch::Stopwatch;
+pub use stopwatch::Timings;
 
 use crate::cloth::collide::Objects;
 use crate::cloth::contact::Outside;

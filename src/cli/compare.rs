@@ -12,8 +12,8 @@ use super::outputs;
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic::{self, Content};
 use crate::output::compare::{Budget, Difference, difference_picture};
-use crate::output::html;
 use crate::output::png::{self, Effort, Pixels};
+use crate::output::{html, page};
 
 /// What `compare` takes.
 #[derive(clap::Args)]
@@ -64,6 +64,10 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let inputs = [args.expected.as_path(), args.actual.as_path()];
     let files = [(&args.diff, Content::Binary), (&args.html, Content::Text)];
     outputs::check(&inputs, files.iter().filter_map(|(path, content)| Some((path.as_deref()?, *content))))?;
+    for path in inputs {
+        fs::metadata(path)
+            .map_err(|e| Error::new(Kind::Io, format!("cannot read `{}`: {e}", path.display())))?;
+    }
     match inputs.map(Path::is_dir) {
         [false, false] => compare_files(args, session),
         [true, true] => compare_folders(args, session),
@@ -79,7 +83,7 @@ fn compare_files(args: &Args, session: &Session) -> Result<()> {
         atomic::write(path, &bytes)?;
     }
     if let Some(path) = &args.html {
-        let page = html::head("Comparison") + &row(&comparison, &pictures)?;
+        let page = page::head("Comparison") + &row(&comparison, &pictures)? + page::END;
         atomic::write(path, page.as_bytes())?;
     }
     if !outputs::takes_stdout(&[&args.diff, &args.html]) {
@@ -96,7 +100,7 @@ fn compare_folders(args: &Args, session: &Session) -> Result<()> {
     if in_a.is_empty() && in_b.is_empty() {
         return Err(Error::new(Kind::Nothing, "neither folder holds a PNG picture"));
     }
-    let mut page = html::head("Comparison");
+    let mut text = page::head("Comparison");
     let mut folders = Folders {
         pictures: Vec::new(),
         only_in_a: in_a.difference(&in_b).map(shown).collect(),
@@ -107,12 +111,12 @@ fn compare_folders(args: &Args, session: &Session) -> Result<()> {
         let (comparison, pictures) =
             compare_pair(&args.expected.join(name), &args.actual.join(name), &args.budget)?;
         if args.html.is_some() {
-            page += &row(&comparison, &pictures)?;
+            text += &row(&comparison, &pictures)?;
         }
         folders.pictures.push(comparison);
     }
     if let Some(path) = &args.html {
-        atomic::write(path, page.as_bytes())?;
+        atomic::write(path, (text + page::END).as_bytes())?;
     }
     if !outputs::takes_stdout(&[&args.html]) {
         session.print(&folders, &folders.lines())?;

@@ -9,12 +9,14 @@ mod arguments;
 mod bench;
 mod check;
 mod compare;
+mod compare_positions;
 mod counts;
 mod export;
 mod film;
 mod guard;
 mod info;
 mod look;
+mod mistakes;
 mod moments;
 mod outputs;
 mod progress;
@@ -22,8 +24,11 @@ mod render;
 mod scene;
 mod signals;
 mod simulate;
+mod stability;
+mod states;
 mod table;
 mod target;
+mod texts;
 mod ui;
 
 use std::process::ExitCode;
@@ -65,7 +70,7 @@ pub fn run() -> ExitCode {
             let ui = arguments.ui();
             exit_code(&ui, execute(&arguments, ui))
         }
-        Err(refusal) => exit_code(&Ui::before_parsing(json), arguments::refuse(&refusal)),
+        Err(refusal) => arguments::refuse(&refusal, &Ui::before_parsing(json)),
     }))
 }
 
@@ -93,7 +98,12 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
+        Command::ComparePositions(args) => compare_positions::run(args, &session),
         Command::Info(args) => info::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Schema => texts::schema(),
+        Command::Completions(args) => texts::completions(args),
+        Command::Man(args) => texts::man(args),
+        Command::Stability(args) => stability::run(args, &session),
     }
 }

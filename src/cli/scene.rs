@@ -36,6 +36,13 @@ impl SceneArgs {
         Ok(loaded.scene)
     }
 
+    /// The scene changed further by `sets`; its warnings are not told again.
+    pub(super) fn load_with(&self, sets: &[&str]) -> Result<Scene> {
+        let mut overrides = self.changes.overrides();
+        overrides.sets.extend(sets.iter().map(|&set| set.to_owned()));
+        scene::load(&self.path, &overrides).map(|loaded| loaded.scene)
+    }
+
     /// Every file that is read.
     pub(super) fn inputs(&self) -> Vec<&Path> {
         [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()

@@ -1,8 +1,7 @@
-//! A web page of picture comparisons, with the pictures inside it.
-
-use std::fmt::Write;
+//! Comparisons of pictures on a web page, with the pictures inside it.
 
 use super::compare::difference_picture;
+use super::page;
 use super::png::{self, Effort, Pixels};
 use crate::error::Result;
 
@@ -16,16 +15,6 @@ pub struct Row<'a> {
     pub pictures: [&'a Pixels; 2],
 }
 
-/// The start of a page, up to the first [`row`].
-pub fn head(title: &str) -> String {
-    let title = escape(title);
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{title}</title>\n\
-         <style>body{{font:14px sans-serif}}figure{{display:inline-block;margin:4px}}\
-         img{{max-width:32vw;border:1px solid #888;image-rendering:pixelated}}</style>\n<h1>{title}</h1>\n"
-    )
-}
-
 /// A heading, the verdict, and expected, difference and actual side by side.
 ///
 /// # Errors
@@ -33,56 +22,22 @@ pub fn head(title: &str) -> String {
 pub fn row(row: &Row<'_>) -> Result<String> {
     let [expected, actual] = row.pictures;
     let difference = difference_picture(expected, actual);
-    let mut text = format!("<h2>{}</h2><p>{}</p>\n", escape(row.title), escape(row.verdict));
+    let mut text = format!(
+        "<h2>{}</h2><p>{}</p>\n<div class=\"row\">\n",
+        page::escape(row.title),
+        page::escape(row.verdict)
+    );
     for (caption, picture) in [("expected", expected), ("difference", &difference), ("actual", actual)] {
         let bytes = png::encode(picture.width, picture.height, picture.rgba.as_flattened(), Effort::Fast)?;
-        let image = format!("<img alt=\"{caption}\" src=\"data:image/png;base64,{}\">", base64(&bytes));
+        let image = page::image(caption, &bytes);
         text += &format!("<figure>{image}<figcaption>{caption}</figcaption></figure>\n");
     }
-    Ok(text)
-}
-
-/// Text that stands for itself in HTML.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// Base 64 with padding (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let bits = (0..3).fold(0, |bits, i| bits << 8 | usize::from(chunk.get(i).copied().unwrap_or(0)));
-        for place in 0..4 {
-            let digit =
-                if place > chunk.len() { '=' } else { char::from(DIGITS[bits >> (18 - 6 * place) & 63]) };
-            // Writing to a string cannot fail.
-            let _ = text.write_char(digit);
-        }
-    }
-    text
+    Ok(text + "</div>\n")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The test vectors of RFC 4648, section 10, and every digit once.
-    #[test]
-    fn base64_gives_the_standard_vectors() {
-        for (bytes, text) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("fooba", "Zm9vYmE="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(bytes.as_bytes()), text);
-        }
-        assert_eq!(base64(&[0xFB, 0xFF, 0xFE]), "+//+");
-    }
 
     #[test]
     fn a_row_holds_the_three_pictures_and_escapes_names() {

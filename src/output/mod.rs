@@ -4,12 +4,15 @@
 pub mod animation;
 pub mod apng;
 pub mod atomic;
+pub mod axis;
 pub mod compare;
 pub mod csv;
 pub mod gif;
 pub mod html;
 pub mod mp4;
 pub mod obj;
+pub mod page;
+pub mod plot;
 pub mod png;
 pub mod raw;
 pub mod sequence;

@@ -168,9 +168,7 @@ fn numbered_pictures_of_the_same_scene_are_kept_and_others_are_drawn_again() {
     ] {
         let run = |s: &Scratch| {
             let look = &LOOK[..if change[0] == "--shader" { 2 } else { 4 }];
-            s.succeed(
-                &[&["animate", "small.json", "f/%d.png", "--frames", "0..5"], look, change].concat(),
-            );
+            s.succeed(&[&["animate", "small.json", "f/%d.png", "--frames", "0..5"], look, change].concat());
         };
         assert_eq!(replaced(&scratch, &[], run), [0, 1, 2, 3, 4], "{change:?}");
     }

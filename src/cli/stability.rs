@@ -1,0 +1,149 @@
+//! `drape stability`: outcome over stiffness, density and step.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use serde::Serialize;
+
+use super::Session;
+use super::progress::Progress;
+use super::scene::SceneArgs;
+use crate::error::{Error, Kind, Result};
+use crate::output::atomic::{self, Content};
+use crate::scene::{Cloth, Scene};
+use crate::stability_map::extremes::{self, Row};
+use crate::stability_map::range::Values;
+use crate::stability_map::{Axes, Column, Map, page};
+
+/// What `stability` takes.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Folder for index.html and results.json
+    #[arg(value_name = "OUT", default_value = "stability")]
+    out: PathBuf,
+    /// Stiffness in N/m: `500..500000:log4`, `lin` for even steps, or `500,5000`
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    ks: Option<Values>,
+    /// Density in kg/m², in the same form
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    density: Option<Values>,
+    /// Steps per frame, in the same form
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    steps: Option<Values>,
+    /// Simulated time of each run, in seconds
+    #[arg(long, value_name = "S", value_parser = super::scene::seconds)]
+    time: Option<f64>,
+    /// A coarse map, shorter runs
+    #[arg(long)]
+    quick: bool,
+}
+
+/// What was found.
+#[derive(Serialize)]
+struct Results<'a> {
+    map: &'a Map,
+    extremes: &'a [Row],
+}
+
+/// Tries every cell and every extreme, writes the page and the numbers, prints the thresholds.
+pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is nothing to try"));
+    };
+    let files = ["index.html", "results.json"].map(|name| args.out.join(name));
+    make_folder(&args.out)?;
+    super::outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
+
+    let (map, rows) = args.measure(&scene, cloth, session)?;
+    let results = Results { map: &map, extremes: &rows };
+    let json = serde_json::to_string_pretty(&results)
+        .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+    let [index, data] = files;
+    atomic::write(&data, (json + "\n").as_bytes())?;
+    atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
+    session.print(&results, &text(&map, &rows, &index))
+}
+
+fn make_folder(path: &Path) -> Result<()> {
+    fs::create_dir_all(path)
+        .map_err(|e| Error::new(Kind::Io, format!("cannot make the folder `{}`: {e}", path.display())))
+}
+
+impl Args {
+    fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
+        let axes = self.axes();
+        let total = axes.pieces() + extremes::len();
+        let progress = Mutex::new((Progress::new(&session.ui, "trying", total as u64), 0));
+        let done = || {
+            if let Ok(mut guard) = progress.lock() {
+                let (progress, count) = &mut *guard;
+                *count += 1;
+                progress.set(*count);
+            }
+            session.signals.check()
+        };
+        let map = Map::new(scene, cloth, axes, &done)?;
+        let rows = extremes::table(&|sets| self.scene.load_with(sets), &mut || done())?;
+        Ok((map, rows))
+    }
+
+    fn axes(&self) -> Axes {
+        let defaults = if self.quick {
+            ["500..500000:log3", "1.5..1500:log3", "1..300:log6"]
+        } else {
+            ["500..500000:log7", "1.5..1500:log4", "1..500:log10"]
+        };
+        let [ks, density, steps] = defaults;
+        let values = |asked: &Option<Values>, text: &str| match asked {
+            Some(values) => values.clone(),
+            None => Values::parse(text).unwrap_or(Values(Vec::new())),
+        };
+        Axes {
+            ks: values(&self.ks, ks).0,
+            density: values(&self.density, density).0,
+            steps: values(&self.steps, steps).whole(),
+            time: self.time.unwrap_or(if self.quick { 0.2 } else { 1.0 }),
+        }
+    }
+
+    fn title(&self) -> String {
+        let name = self.scene.path.file_stem().unwrap_or_default();
+        format!("Where {} is stable", name.to_string_lossy())
+    }
+}
+
+/// The thresholds, the extremes that broke their promise, and where the page is.
+fn text(map: &Map, rows: &[Row], index: &Path) -> String {
+    let steps = |found: Option<f64>| found.map_or_else(|| "-".to_owned(), |steps| format!("{steps:.1}"));
+    let line = |column: &Column| {
+        let [rest, safe, _] = column.theory;
+        format!(
+            "{:10} {:10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
+            column.density,
+            column.ks,
+            steps(column.at_rest),
+            steps(column.in_motion)
+        )
+    };
+    let columns: String = map.columns.iter().map(line).collect();
+    let broken = rows.iter().filter(|row| !row.kept);
+    let broken: String =
+        broken.map(|row| format!("broken promise: {}: {}\n", row.what, row.happened)).collect();
+    format!(
+        "fewest stable steps a second\n{:>10} {:>10} {:>12} {:>12} {:>12} {:>12}\n{columns}\
+         extremes     {} of {} kept their promise\n{broken}page         {}\n",
+        "density",
+        "ks",
+        "rest, theory",
+        "rest, tried",
+        "in motion",
+        "safe, theory",
+        rows.iter().filter(|row| row.kept).count(),
+        rows.len(),
+        index.display(),
+    )
+}
