@@ -3,7 +3,7 @@
 //! `naive` is the method a second time, which shares no code with the library. Random small scenes
 //! and the five stock scenes are run by both.
 
-#![expect(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod naive;
 mod scenes;

@@ -114,7 +114,7 @@ fn leaves() -> Vec<Leaf> {
         match one.unwrap_or(schema).get("properties").and_then(Value::as_object) {
             Some(properties) => properties
                 .iter()
-                .for_each(|(name, inner)| walk(inner, &[path, &[name.clone()]].concat(), found)),
+                .for_each(|(name, inner)| walk(inner, &[path, std::slice::from_ref(name)].concat(), found)),
             None => found.push((path.to_vec(), schema.clone())),
         }
     }

@@ -171,9 +171,9 @@ fn simulate(mut simulation: Simulation, first: u64, count: usize, session: &Sess
 fn first(ours: &Ours, theirs: &State, tolerance: f64) -> Option<usize> {
     let differs = |p: usize, theirs: [f64; 3]| {
         let ours: [f64; 3] = ours.positions.get(p).into();
-        // A distance that is no number is no small one.
-        ours.map(f64::to_bits) != theirs.map(f64::to_bits)
-            && (tolerance == 0.0 || !(between(ours, theirs) <= tolerance))
+        // A distance that is no number is not within it.
+        let within = tolerance > 0.0 && between(ours, theirs) <= tolerance;
+        ours.map(f64::to_bits) != theirs.map(f64::to_bits) && !within
     };
     theirs.iter().enumerate().position(|(p, &theirs)| differs(p, theirs))
 }
