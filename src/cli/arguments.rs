@@ -7,7 +7,9 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{animate, check, compare, compare_positions, export, info, render, simulate, stability, texts};
+use super::{
+    animate, check, compare, compare_positions, export, info, render, simulate, stability, study, texts,
+};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -56,6 +58,8 @@ pub(super) enum Command {
     Compare(compare::Args),
     /// Tell where the positions of another program part from the method, and by which mistake
     ComparePositions(compare_positions::Args),
+    /// Measure speed against accuracy: methods and steps against a reference, ways of drawing
+    Study(study::Args),
     /// Tell what a scene needs and what is therefore left out
     Info(info::Args),
     /// Tell everything that is wrong in scene files

@@ -26,6 +26,7 @@ mod signals;
 mod simulate;
 mod stability;
 mod states;
+mod study;
 mod table;
 mod target;
 mod texts;
@@ -100,6 +101,7 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Compare(args) => compare::run(args, &session),
         Command::ComparePositions(args) => compare_positions::run(args, &session),
         Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Schema => texts::schema(),
         Command::Completions(args) => texts::completions(args),

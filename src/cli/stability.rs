@@ -106,7 +106,7 @@ impl Args {
             ks: values(&self.ks, ks).0,
             density: values(&self.density, density).0,
             steps: values(&self.steps, steps).whole(),
-            time: self.time.unwrap_or(if self.quick { 0.2 } else { 1.0 }),
+            time: self.time.unwrap_or(if self.quick { 0.2 } else { 0.5 }),
         }
     }
 
@@ -122,9 +122,9 @@ fn text(map: &Map, rows: &[Row], index: &Path) -> String {
     let line = |column: &Column| {
         let [rest, safe, _] = column.theory;
         format!(
-            "{:10} {:10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
-            column.density,
-            column.ks,
+            "{:>10} {:>10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
+            page::short(column.density),
+            page::short(column.ks),
             steps(column.at_rest),
             steps(column.in_motion)
         )

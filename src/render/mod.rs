@@ -27,6 +27,18 @@ pub struct Options {
     pub springs: Option<SpringKinds>,
     /// Keep object and triangle ids.
     pub ids: bool,
+    /// The arithmetic of the fragment stage.
+    pub shading: Shading,
+}
+
+/// The arithmetic in which fragment programs run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// binary32, as on a graphics card.
+    #[default]
+    F32,
+    /// binary64, for measuring what binary32 loses: the same programs, uniforms and vertices.
+    F64,
 }
 
 /// A finished picture.
@@ -112,7 +124,11 @@ impl Renderer {
         options: &Options,
     ) -> (Stats, Stages) {
         let objects = Object::all(&self.scene, points, options.springs);
-        let calls: Vec<_> = objects.iter().map(|object| self.draw_call::<Wide<f32>>(object)).collect();
+        let call = |object| match options.shading {
+            Shading::F32 => self.draw_call::<Wide<f32>>(object),
+            Shading::F64 => self.draw_call::<Wide<f64>>(object),
+        };
+        let calls: Vec<_> = objects.iter().map(call).collect();
         raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)
     }
 }
