@@ -11,7 +11,7 @@ use super::scene::Changes;
 use super::ui::paint;
 use crate::cloth::stability::Stability;
 use crate::error::{Diagnostic, Error, Kind, Result};
-use crate::scene::{self, Plan, Scene};
+use crate::scene::{self, Integrator, Plan, Scene};
 use crate::texture_source::TextureSource;
 
 /// What `check` takes.
@@ -107,7 +107,8 @@ fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnost
 
 /// Why the first step would be refused, if it would.
 fn instability(scene: &Scene) -> Option<Error> {
-    let cloth = scene.cloth.as_ref()?;
+    // No other integrator has a largest step.
+    let cloth = scene.cloth.as_ref().filter(|_| scene.sim.integrator == Integrator::Verlet)?;
     match Stability::new(cloth, &scene.sim) {
         Ok(stability) => {
             let unstable = stability.is_unstable_at_rest();

@@ -333,6 +333,7 @@ fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
         (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "texture_1"),
         (&["--set", "material.shader=mirror", "--textures", "set"], &["check::texture"], "posx"),
         (&["--set", "material.shader=texture"], &[], "valid"),
+        (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
         (&stiff, &["check::unstable"], "dt·ω"),
         (&[&texture[..], &stiff].concat(), &["check::texture", "check::unstable"], "granite"),
     ] {

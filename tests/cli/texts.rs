@@ -66,7 +66,10 @@ fn every_command_has_a_manual_page() {
         assert!(all.contains(&listed), "{command}: {all}");
         let own = page(&[&command]);
         assert!(own.contains(&format!(".TH drape-{command} 1")), "{own}");
-        assert!(own.contains(".SH SYNOPSIS") && own.contains(&format!("drape {command}")), "{own}");
+        assert!(
+            own.contains(".SH SYNOPSIS") && own.contains(&format!("drape {command}").replace('-', "\\-")),
+            "{own}"
+        );
     }
     let render = page(&["render"]);
     for option in ["shader", "until\\-rest", "threads"] {
