@@ -42,6 +42,7 @@
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
 //! | outcome over stiffness, density and step | [`stability_map`] |
 //! | speed against accuracy, measured | [`study`] |
+//! | the figures of the report and their page | [`gallery`] |
 //! | the commands | [`cli`] |
 //!
 //! # Determinism
@@ -67,4 +68,5 @@ pub mod render;
 pub mod output;
 pub mod stability_map;
 pub mod study;
+pub mod gallery;
 pub mod cli;

@@ -8,7 +8,8 @@ use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
 use super::{
-    animate, check, compare, compare_positions, export, info, render, simulate, stability, study, texts,
+    animate, check, compare, compare_positions, export, gallery, info, render, simulate, stability, study,
+    texts,
 };
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
@@ -66,6 +67,8 @@ pub(super) enum Command {
     Check(check::Args),
     /// Map where a cloth is stable, over stiffness, density and step
     Stability(stability::Args),
+    /// Make every figure of the report, and a page of them
+    Gallery(gallery::Args),
     /// Print the JSON schema of scene files
     Schema,
     /// Print the script that completes this program's commands and options in a shell

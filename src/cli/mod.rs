@@ -13,6 +13,7 @@ mod compare_positions;
 mod counts;
 mod export;
 mod film;
+mod gallery;
 mod guard;
 mod info;
 mod look;
@@ -107,5 +108,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Completions(args) => texts::completions(args),
         Command::Man(args) => texts::man(args),
         Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
     }
 }

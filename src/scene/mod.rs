@@ -23,12 +23,13 @@ mod rule;
 mod scalar;
 mod schema;
 mod source;
+mod stock;
 mod words;
 
 use nalgebra::Vector3;
 
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
-pub use load::{Loaded, MAX_FILE, Overrides, load, load_text};
+pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
 pub use schema::schema;
 
