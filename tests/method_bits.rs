@@ -2,7 +2,7 @@
 //!
 //! `naive` is the method a second time, written from its text with points as triples, one list of
 //! springs and a tree of boxes. It shares no code with the library. Random small scenes and the
-//! five stock scenes are run by both.
+//! five stock scenes are run by both, for up to 1000 frames.
 
 #![expect(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
 
@@ -10,6 +10,7 @@ mod scenes;
 
 use std::collections::BTreeMap;
 
+use drape::math::StateHash;
 use drape::scene::{Orientation, Plane, Scene, SelfCollision, Sphere, Vec3};
 use drape::simulation::Simulation;
 use proptest::prelude::*;
@@ -373,34 +374,63 @@ proptest! {
     }
 }
 
-/// Hashes of the state of the stock scenes after 100 frames. They change only when the method does.
-const STOCK_HASHES: [(&str, u64); 5] = [
-    ("pinned2", 0x7287_c18f_1b26_dc4e),
-    ("pinned4", 0xabd5_36b3_629d_89d3),
-    ("sphere", 0x599a_e403_80e3_c512),
-    ("plane", 0xe4e1_cd31_7bb0_002d),
-    ("selfCollision", 0x6510_8a45_dad4_884e),
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn any_small_scene_agrees_in_every_bit_for_1000_frames(scene in any_scene()) {
+        if let Err(difference) = agree(&scene, 1000 * u64::from(scene.sim.steps_per_frame), None) {
+            prop_assert!(false, "{difference}");
+        }
+    }
+}
+
+/// One hash over the state hashes of frames 1 to 1000 of the stock scenes. They change only when
+/// the method does.
+const STOCK_HASHES: [u64; 5] = [
+    0x2b70_7580_0555_eba5,
+    0x9feb_ce28_1188_5726,
+    0x132c_08ce_09aa_07d6,
+    0x9c54_f1ec_c70e_cba6,
+    0xdb2e_58bc_a924_b0d5,
 ];
 
+/// The naive method takes a minute and a half of CPU time for all 1000 frames, so here it runs along for 100.
 #[test]
 fn stock_scenes_agree_in_every_bit_and_keep_their_hashes() {
+    all_stock_scenes_agree(100);
+}
+
+/// All frames by both: `cargo test --release --test method_bits -- --ignored`.
+#[test]
+#[ignore = "the naive method is slow"]
+fn stock_scenes_agree_in_every_bit_for_1000_frames() {
+    all_stock_scenes_agree(1000);
+}
+
+fn all_stock_scenes_agree(by_both: u64) {
     std::thread::scope(|scope| {
-        for ((name, scene), (_, hash)) in scenes::stock().into_iter().zip(STOCK_HASHES) {
-            scope.spawn(move || stock_scene_agrees(name, &scene, hash));
+        for ((name, scene), hash) in scenes::stock().into_iter().zip(STOCK_HASHES) {
+            scope.spawn(move || stock_scene_agrees(name, &scene, hash, by_both));
         }
     });
 }
 
-/// Runs both for 100 frames and compares all bits after each.
-fn stock_scene_agrees(name: &str, scene: &Scene, hash: u64) {
+/// Runs 1000 frames, compares all bits after each of the first `by_both`, and all of them with
+/// `expected`.
+fn stock_scene_agrees(name: &str, scene: &Scene, expected: u64, by_both: u64) {
     let mut simulation = Simulation::new(scene).unwrap();
     let mut cloth = naive::Cloth::new(scene);
-    for frame in 1..=100 {
+    let mut hash = StateHash::default();
+    for frame in 1..=1000 {
         simulation.advance_frame().unwrap();
-        (0..30).for_each(|_| cloth.step());
-        if let Err(difference) = cloth.equals(&simulation) {
-            panic!("{name}, frame {frame}: {difference}");
+        hash.write(&simulation.state_hash().to_le_bytes());
+        if frame <= by_both {
+            (0..30).for_each(|_| cloth.step());
+            if let Err(difference) = cloth.equals(&simulation) {
+                panic!("{name}, frame {frame}: {difference}");
+            }
         }
     }
-    assert_eq!(simulation.state_hash(), hash, "{name}: {:#018x}", simulation.state_hash());
+    assert_eq!(hash.finish(), expected, "{name}: {:#018x}", hash.finish());
 }

@@ -89,7 +89,8 @@ fn shader() -> impl TypedValueParser<Value = Shader> {
     })
 }
 
-fn size(text: &str) -> Result<[u32; 2], String> {
+/// Reads a width and a height, each 1 to 16384 pixels.
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |digits: &str| digits.parse().ok().filter(|pixels| (1..=16_384).contains(pixels));
     let read = || {
         let (width, height) = text.split_once('x')?;

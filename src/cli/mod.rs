@@ -4,15 +4,19 @@
 //! to standard error. The exit code is that of the error's [`Kind`].
 
 mod advance;
+mod animate;
 mod arguments;
 mod bench;
 mod check;
 mod compare;
 mod counts;
 mod export;
+mod film;
+mod gallery;
 mod guard;
 mod info;
 mod look;
+mod moments;
 mod outputs;
 mod progress;
 mod render;
@@ -22,6 +26,7 @@ mod simulate;
 mod stability;
 mod study;
 mod table;
+mod target;
 mod ui;
 
 use std::process::ExitCode;
@@ -87,6 +92,7 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
     })?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),
+        Command::Animate(args) => animate::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
@@ -94,5 +100,6 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
     }
 }

@@ -64,6 +64,15 @@ pub(super) fn check_ending(path: &Path, ending: &str) -> Result<()> {
     }
 }
 
+/// Makes the folder `path` and those around it, if they are not there.
+///
+/// # Errors
+/// [`Kind::Io`] when it cannot be made.
+pub(super) fn make_folder(path: &Path) -> Result<()> {
+    fs::create_dir_all(path)
+        .map_err(|e| Error::new(Kind::Io, format!("cannot make the folder `{}`: {e}", path.display())))
+}
+
 /// A path that two names of one file share, if the file or its folder is there.
 fn identity(path: &Path) -> PathBuf {
     let in_folder = || {

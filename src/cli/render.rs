@@ -21,14 +21,14 @@ use crate::simulation::Simulation;
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
-    scene: SceneArgs,
+    pub(super) scene: SceneArgs,
     /// The picture to write, PNG (default: the scene's name with .png, in this folder; `-` = standard output)
     #[arg(value_name = "OUT.png")]
     picture: Option<PathBuf>,
     #[command(flatten)]
-    moment: Moment,
+    pub(super) moment: Moment,
     #[command(flatten)]
-    look: Look,
+    pub(super) look: Look,
     /// Write the depth of each pixel, f32 little-endian, top row first
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,

@@ -48,6 +48,11 @@ impl SceneArgs {
         scene::load(&self.path, &overrides).map(|loaded| loaded.scene)
     }
 
+    /// The scene of the files built into the program, called as they are in the repository.
+    pub(super) fn load_stock(&self) -> Result<Scene> {
+        scene::load_stock(&self.path, &self.changes.overrides()).map(|loaded| loaded.scene)
+    }
+
     /// Every file that is read.
     pub(super) fn inputs(&self) -> Vec<&Path> {
         [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()

@@ -1,14 +1,13 @@
 //! `drape stability`: outcome over stiffness, density and step.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use serde::Serialize;
 
-use super::Session;
 use super::progress::Progress;
 use super::scene::SceneArgs;
+use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic::{self, Content};
 use crate::scene::{Cloth, Scene};
@@ -55,8 +54,8 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is nothing to try"));
     };
     let files = ["index.html", "results.json"].map(|name| args.out.join(name));
-    make_folder(&args.out)?;
-    super::outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
+    outputs::make_folder(&args.out)?;
+    outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
 
     let (map, rows) = args.measure(&scene, cloth, session)?;
     let results = Results { map: &map, extremes: &rows };
@@ -66,11 +65,6 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     atomic::write(&data, (json + "\n").as_bytes())?;
     atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
     session.print(&results, &text(&map, &rows, &index))
-}
-
-fn make_folder(path: &Path) -> Result<()> {
-    fs::create_dir_all(path)
-        .map_err(|e| Error::new(Kind::Io, format!("cannot make the folder `{}`: {e}", path.display())))
 }
 
 impl Args {
@@ -106,7 +100,7 @@ impl Args {
             ks: values(&self.ks, ks).0,
             density: values(&self.density, density).0,
             steps: values(&self.steps, steps).whole(),
-            time: self.time.unwrap_or(if self.quick { 0.2 } else { 1.0 }),
+            time: self.time.unwrap_or(if self.quick { 0.2 } else { 0.5 }),
         }
     }
 
@@ -122,9 +116,9 @@ fn text(map: &Map, rows: &[Row], index: &Path) -> String {
     let line = |column: &Column| {
         let [rest, safe, _] = column.theory;
         format!(
-            "{:10} {:10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
-            column.density,
-            column.ks,
+            "{:>10} {:>10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
+            page::short(column.density),
+            page::short(column.ks),
             steps(column.at_rest),
             steps(column.in_motion)
         )

@@ -19,7 +19,7 @@ img,svg{max-width:100%;height:auto;display:block}img{border:1px solid var(--line
 svg text{fill:var(--ink);font-family:system-ui,sans-serif}\
 .wide{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}\
 th,td{padding:.25rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
-th:first-child,td:first-child{text-align:left}\
+th:first-child,td:first-child,.text th,.text td{text-align:left}.text td{white-space:normal;vertical-align:top}\
 code,pre{font:.85em/1.45 ui-monospace,monospace;background:var(--shade);border-radius:4px;padding:.1em .3em}\
 pre{padding:.6rem .8rem;overflow-x:auto}";
 

@@ -8,6 +8,7 @@ use crate::{
     cubemap::Cubemap,
     error::{Error, Kind, Result},
     lanes::Wide,
+    math::StateHash,
     mesh::SpringKinds,
     raster::{self, Framebuffer, Stages, Stats},
     scene::{Plan, Scene},
@@ -89,6 +90,15 @@ impl Renderer {
             textures: plan.textures.into_iter().map(texture).collect::<Result<_>>()?,
             cubemaps: plan.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
         })
+    }
+
+    /// Takes the texels of all textures into `hash`.
+    pub fn hash_textures(&self, hash: &mut StateHash) {
+        let faces = self.cubemaps.iter().flat_map(|(_, cubemap)| cubemap.faces());
+        for texture in self.textures.iter().map(|(_, texture)| texture).chain(faces) {
+            hash.write(&(texture.width() as u64).to_le_bytes());
+            texture.texels().iter().flatten().for_each(|value| hash.write(&value.to_le_bytes()));
+        }
     }
 
     /// A framebuffer of the scene's size and samples.

@@ -8,7 +8,7 @@ use super::checks::Checks;
 use super::format::{Node, parse};
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Scene, fields, patch, reader};
+use super::{Scene, fields, patch, reader, stock};
 use crate::error::{Diagnostic, Error, Kind, Result};
 
 /// Largest scene or patch file, in bytes.
@@ -39,7 +39,16 @@ pub struct Loaded {
 /// [`Kind::Scene`] with every diagnostic if the file, a patch or a set is not valid;
 /// [`Kind::Io`] if a file cannot be read; [`Kind::Usage`] if a set is not of the form `PATH=JSON`.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
-    assemble(&path.display().to_string(), &read(path)?, overrides)
+    assemble(&path.display().to_string(), &read(path)?, overrides, read)
+}
+
+/// Loads a scene as [`load`] does in the repository's folder, but from the files built into the
+/// program: `path` and the patches are `scenes/sphere.json`, `scenes/look/ball.json` and the like.
+///
+/// # Errors
+/// As [`load`]; [`Kind::Io`] if no built-in file has that path.
+pub fn load_stock(path: &Path, overrides: &Overrides) -> Result<Loaded> {
+    assemble(&path.display().to_string(), &stock::read(path)?, overrides, stock::read)
 }
 
 /// Loads a scene from `text`, which errors call `name`, changed by `overrides`.
@@ -58,10 +67,16 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
 /// # Ok::<(), drape::error::Error>(())
 /// ```
 pub fn load_text(name: &str, text: &str, overrides: &Overrides) -> Result<Loaded> {
-    assemble(name, text.as_bytes(), overrides)
+    assemble(name, text.as_bytes(), overrides, read)
 }
 
-fn assemble(name: &str, bytes: &[u8], overrides: &Overrides) -> Result<Loaded> {
+/// The scene of a file's bytes, whose patches `read` finds.
+fn assemble(
+    name: &str,
+    bytes: &[u8],
+    overrides: &Overrides,
+    read: impl Fn(&Path) -> Result<Vec<u8>>,
+) -> Result<Loaded> {
     let mut report = Report::default();
     let document = file(&mut report, name, bytes);
     let mut patches = Vec::new();

@@ -55,6 +55,17 @@ fn a_wrong_command_line_is_2() {
         &["render", scene, "out.png", "--depth", "out.png"],
         &["render", scene, "out.png", "--set", "cloth.ks"],
         &["render", scene, "-", "--stats"],
+        &["animate", scene],
+        &["animate", scene, "-"],
+        &["animate", scene, "out.png"],
+        &["animate", scene, "out.webm"],
+        &["animate", scene, "%d/out.png"],
+        &["animate", scene, "out.apng", "--frames", "3..3"],
+        &["animate", scene, "out.apng", "--frames", "3"],
+        &["animate", scene, "out.apng", "--fps", "0"],
+        &["animate", scene, "out.apng", "--fps", "1001"],
+        &["animate", scene, "out.apng", "--fps", "29.97"],
+        &["animate", scene, "out.gif", "--fps", "51"],
         &["simulate", scene, "--positions", "small.json"],
         &["simulate", scene, "--hash", "--bench"],
         &["simulate", scene, "--frames", "1", "--time", "1"],
@@ -129,6 +140,7 @@ fn nothing_to_do_is_4() {
     let scratch = Scratch::new();
     fs::write(scratch.path("bare.json"), "{}").unwrap();
     fails(&scratch, &["export", "bare.json", "out.obj"], 4, "nothing");
+    fails(&scratch, &["animate", "small.json", "out.gif", "--set", "render.time=0"], 4, "nothing");
     fs::create_dir(scratch.path("a")).unwrap();
     fs::create_dir(scratch.path("b")).unwrap();
     fails(&scratch, &["compare", "a", "b"], 4, "nothing");
@@ -142,6 +154,7 @@ fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
         &["render", "small.json", "out.png"][..],
         &["simulate", "small.json", "--positions", "out"],
         &["export", "small.json", "out.obj"],
+        &["animate", "small.json", "out.apng"],
     ] {
         let (error, _) = fails(&scratch, &[command, &stiff].concat(), 5, "unstable");
         assert!(error["error"].as_str().unwrap().contains("before the first step: dt·ω = "), "{error}");
@@ -226,6 +239,9 @@ fn a_place_that_cannot_be_written_is_6_before_anything_is_simulated() {
             assert!(error["error"].as_str().unwrap().contains(place), "{error}");
         }
     }
+    for out in ["no/a.gif", "no/no/%d.png", "small.json/a.apng", "small.json/%d.png"] {
+        fails(&scratch, &[&["animate", "small.json", out], &stiff[..]].concat(), 6, "io");
+    }
 }
 
 #[cfg(target_os = "linux")]
@@ -303,6 +319,10 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
         fails(&scratch, &arguments, 2, "usage");
         assert_eq!(scratch.read(texture), b"not looked into");
     }
+    // One of the numbered pictures is the texture.
+    let arguments =
+        ["animate", "small.json", "set/texture_%d.png", "--textures", "set", "--shader", "texture"];
+    fails(&scratch, &arguments, 2, "usage");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The command line keeps its contract: exit codes, clean standard output, errors that programs
 //! can read, and no file left behind by a failure.
 
+mod animate;
 mod errors;
 mod files;
 mod results;

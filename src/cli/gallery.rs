@@ -1,0 +1,151 @@
+//! `drape gallery`: every figure of the report, and a page of them.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use clap::Parser;
+use serde::Serialize;
+
+use super::arguments::{Arguments, Command};
+use super::look::size;
+use super::progress::Progress;
+use super::{Session, outputs};
+use crate::error::{Error, Kind, Result};
+use crate::gallery::page::{self, Entry};
+use crate::gallery::shot::{self, Shot, Shown, State};
+use crate::gallery::table::{Figure, Part, Picture, parts};
+use crate::output::atomic::{self, Content};
+
+/// The name of the page.
+const INDEX: &str = "index.html";
+
+/// What `gallery` takes.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Folder for the pictures and index.html
+    #[arg(value_name = "OUT", default_value = "gallery")]
+    out: PathBuf,
+    /// Make this figure, repeatable (default: all 51); the page then shows no other
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Width and height of the pictures in pixels (default: the report's 1024x800)
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Write the pictures alone: no page and no energy ledger, which takes three quarters of the time
+    #[arg(long)]
+    pictures: bool,
+}
+
+/// What was made.
+#[derive(Serialize)]
+struct Summary<'a> {
+    folder: String,
+    pictures: Vec<Made<'a>>,
+}
+
+/// One picture that was made.
+#[derive(Serialize)]
+struct Made<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    state: State,
+}
+
+/// Makes the pictures, then writes them and the page.
+pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
+    let parts = args.parts()?;
+    let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
+    let shots = pictures.iter().map(|picture| args.shot(picture)).collect::<Result<Vec<Shot>>>()?;
+    let files: Vec<PathBuf> =
+        pictures.iter().map(|picture| args.out.join(format!("{}.png", picture.name))).collect();
+    let index = args.out.join(INDEX);
+    outputs::make_folder(&args.out)?;
+    let page = (!args.pictures).then_some((index.as_path(), Content::Text));
+    outputs::check(&[], files.iter().map(|file| (file.as_path(), Content::Binary)).chain(page))?;
+
+    let shown = take(&shots, !args.pictures, session)?;
+    for (file, shown) in files.iter().zip(&shown) {
+        atomic::write(file, &shown.png)?;
+    }
+    if !args.pictures {
+        atomic::write(&index, text(&parts, &shots, &shown).as_bytes())?;
+    }
+    args.finish(&pictures, &shown, session)
+}
+
+impl Args {
+    /// The figures that are asked for.
+    fn parts(&self) -> Result<Vec<Part>> {
+        let mut parts = parts()?;
+        let known = |name: &&String| parts.iter().flat_map(|p| &p.figures).any(|f| f.name() == *name);
+        if let Some(name) = self.only.iter().find(|name| !known(name)) {
+            let names: Vec<_> = parts.iter().flat_map(|part| &part.figures).map(Figure::name).collect();
+            let error = Error::new(Kind::Usage, format!("there is no figure `{name}`"));
+            return Err(error.with_help(format!("the figures are {}", names.join(", "))));
+        }
+        if !self.only.is_empty() {
+            for part in &mut parts {
+                part.figures.retain(|figure| self.only.iter().any(|name| name == figure.name()));
+            }
+        }
+        Ok(parts)
+    }
+
+    fn shot(&self, picture: &Picture) -> Result<Shot> {
+        let mut shot = read(&picture.command())?;
+        shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
+        Ok(shot)
+    }
+
+    fn finish(&self, pictures: &[&Picture], shown: &[Shown], session: &Session) -> Result<()> {
+        let folder = self.out.display().to_string();
+        session.ui.note(&format!("{folder}: {} pictures", shown.len()));
+        if !session.ui.json {
+            return Ok(());
+        }
+        let pictures = pictures.iter().zip(shown);
+        let pictures =
+            pictures.map(|(picture, shown)| Made { name: &picture.name, state: shown.state }).collect();
+        session.print_json(&Summary { folder, pictures })
+    }
+}
+
+/// What the command line makes of `command`, a `drape render` of built-in files.
+fn read(command: &str) -> Result<Shot> {
+    let wrong = |cause: String| Error::new(Kind::Internal, format!("`{command}`: {cause}"));
+    let arguments =
+        Arguments::try_parse_from(command.split_whitespace()).map_err(|refusal| wrong(refusal.to_string()))?;
+    let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
+    let mut scene = render.scene.load_stock()?;
+    render.look.apply(&mut scene);
+    let until = render.moment.until(&scene);
+    if until.rest {
+        return Err(wrong("its moment is known only at the end".to_owned()));
+    }
+    let allow_unstable = render.moment.leniency.allow_unstable;
+    Ok(Shot { scene, options: render.look.options(false), frame: until.frames, allow_unstable })
+}
+
+/// Takes the pictures and tells how far it is.
+fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
+    let progress = Mutex::new((Progress::new(&session.ui, "simulating", shot::frames(shots)), 0));
+    let each_frame = || {
+        if let Ok(mut guard) = progress.lock() {
+            let (progress, frames) = &mut *guard;
+            *frames += 1;
+            progress.set(*frames);
+        }
+        session.signals.check()
+    };
+    let shown = shot::take(shots, ledger, &each_frame)?;
+    session.signals.check()?;
+    Ok(shown)
+}
+
+/// The page of all that was made.
+fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
+    let mut made = shots.iter().zip(shown);
+    let mut entry = |figure| Entry::new(figure, &mut made);
+    let parts: Vec<_> = parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
+    page::page(&parts)
+}
