@@ -150,3 +150,33 @@ fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
         parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
     page::page(&parts)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::stability::Stability;
+
+    fn pictures() -> Vec<Picture> {
+        let parts = parts().unwrap();
+        parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
+    }
+
+    /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.
+    #[test]
+    fn the_commands_of_unstable_cloths_alone_allow_it() {
+        for picture in pictures() {
+            let shot = read(&picture.command()).unwrap();
+            let unstable = shot.scene.cloth.as_ref().is_some_and(|cloth| {
+                shot.frame > 0 && Stability::new(cloth, &shot.scene.sim).unwrap().is_unstable_at_rest()
+            });
+            assert_eq!(shot.allow_unstable, unstable, "{}", picture.name);
+        }
+    }
+
+    #[test]
+    fn every_picture_has_the_size_of_the_report() {
+        for picture in pictures() {
+            assert_eq!(read(&picture.command()).unwrap().scene.render.size, [1024, 800], "{}", picture.name);
+        }
+    }
+}
