@@ -4,6 +4,7 @@ mod guarded;
 mod locate;
 mod scheme;
 mod state;
+mod stiffness;
 mod stopwatch;
 
 pub use stopwatch::Timings;

@@ -15,17 +15,17 @@ use drape::texture_source::TextureSource;
 
 const SCENE: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 6,
     "num_height_points": 6, "thickness": 0.0095, "orientation": 0, "pinned": [[0, 0], [5, 0]],
-    "damping": 0.2, "density": 150, "ks": 5000, "enable_structural": true,
+    "damping": 0.2, "density": 150, "ks": 500000, "enable_structural": true,
     "enable_shearing": true, "enable_bending": true},
     "sphere": {"origin": [0.5, 0.2, 0.5], "radius": 0.2, "friction": 0.3},
     "render": {"size": [32, 20], "time": 0.1}}"#;
 
-/// One stiffness: one rate that is not stable, two that are, and the scene's own.
+/// One stiffness, stable from 600 steps/s: one rate below, two above, and the scene's own 2700.
 fn extent() -> Extent {
     Extent {
         tenths: vec![1, 2],
         densities: vec![1.0],
-        rates: vec![0.5, 2.0, 4.0],
+        rates: vec![0.5, 2.0, 8.0],
         repeats: 2,
         resolutions: vec![8],
         ..Extent::quick()
@@ -78,10 +78,9 @@ fn a_small_study_finds_the_order_of_every_method() {
         panel.cells.iter().filter(|cell| cell.method == number).collect::<Vec<_>>()
     };
     let error = |method: &str, i: usize| of(method)[i].errors[moment].rms;
-    // The matrix: the scene's own 2700 steps/s are far more than the others.
     let half = of("Verlet, half-step start");
-    assert_eq!(half.len(), 4);
-    assert!(half.iter().zip(&half[1..]).all(|(a, b)| a.rate < b.rate && a.springs < b.springs));
+    assert_eq!(half.iter().map(|cell| cell.rate).collect::<Vec<_>>(), [360, 1260, 2700, 4860]);
+    assert!(half.iter().zip(&half[1..]).all(|(a, b)| a.springs < b.springs));
     assert_ne!(half[0].outcome, Outcome::Ok, "half of the stable rate");
     assert!(half[1..].iter().all(|cell| cell.outcome == Outcome::Ok));
     // Second order, first order, and none.
@@ -92,11 +91,14 @@ fn a_small_study_finds_the_order_of_every_method() {
     };
     assert!((slope("Verlet, half-step start") - 2.0).abs() < 0.1, "{}", slope("Verlet, half-step start"));
     assert!((slope("Verlet, report start") - 1.0).abs() < 0.1, "{}", slope("Verlet, report start"));
-    assert!(error("Verlet, damping per step", 1) > 10.0 * error("Verlet, damping per step", 3));
+    // Damping per step is another cloth but at the rate that it is meant for.
+    let per_step = [1, 2, 3].map(|i| error("Verlet, damping per step", i));
+    assert!(per_step[0] > 5.0 * per_step[1] && per_step[2] > 5.0 * per_step[1], "{per_step:?}");
     // The reference is far better than what is held against it.
     let floor = &panel.reference.floor[moment];
-    assert!(floor.rms <= 0.01 * error("Verlet, half-step start", 3), "{floor:?}");
-    assert!(panel.reference.rates[1] >= 8 * half[3].rate);
+    let smallest = error("Verlet, half-step start", 3);
+    assert!(floor.rms <= 0.1 * smallest, "{floor:?} for {smallest:e}");
+    assert!(panel.reference.rates[1] >= 4 * half[3].rate, "{:?}", panel.reference.rates);
     // The hull that is the same on every machine is the best method alone.
     let hull = panel.hull(Cost::Springs);
     assert!(!hull.is_empty() && hull.iter().all(|&i| panel.cells[i].method == 0), "{hull:?}");
@@ -119,7 +121,7 @@ fn finished_cells_are_not_run_again() {
     assert_eq!(study::csv(&first), study::csv(&again), "times are kept too");
     // Another scene finds nothing; another matrix only what it shares.
     let stiffer = Source {
-        overrides: Overrides { sets: vec!["cloth.ks=6000".to_owned()], ..Overrides::default() },
+        overrides: Overrides { sets: vec!["cloth.ks=600000".to_owned()], ..Overrides::default() },
         ..source.clone()
     };
     let (_, [made_again, kept]) = run(&stiffer, &extent(), folder.path());

@@ -65,7 +65,7 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
 }
 
 /// The error of a cloth that vibrates too fast even at rest.
-fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
+pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
     let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(

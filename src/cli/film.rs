@@ -106,8 +106,8 @@ impl Film<'_> {
     /// Draws each state; how many pictures were taken.
     fn draw(&self, states: Receiver<Numbered<Points>>, pictures: &SyncSender<Numbered<Picture>>) -> u64 {
         let draw = |(k, points): Numbered<Points>| (k, self.renderer.draw(&points, &self.options));
-        let sent = states.into_iter().map(|state| pictures.send(draw(state)));
-        sent.take_while(Result::is_ok).count() as u64
+        let sent = states.into_iter().map(|state| pictures.send(draw(state)).is_ok());
+        sent.take_while(|&sent| sent).count() as u64
     }
 
     /// Encodes each picture; the file, if it is one for all.

@@ -113,8 +113,8 @@ impl Args {
 /// What the command line makes of `command`, a `drape render` of built-in files.
 fn read(command: &str) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{command}`: {cause}"));
-    let arguments =
-        Arguments::try_parse_from(command.split_whitespace()).map_err(|refusal| wrong(refusal.to_string()))?;
+    let arguments = Arguments::try_parse_from(command.split_whitespace())
+        .map_err(|refusal| wrong(refusal.to_string()))?;
     let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
     let mut scene = render.scene.load_stock()?;
     render.look.apply(&mut scene);
@@ -146,6 +146,37 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
 fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
     let mut made = shots.iter().zip(shown);
     let mut entry = |figure| Entry::new(figure, &mut made);
-    let parts: Vec<_> = parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
+    let parts: Vec<_> =
+        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
     page::page(&parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::stability::Stability;
+
+    fn pictures() -> Vec<Picture> {
+        let parts = parts().unwrap();
+        parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
+    }
+
+    /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.
+    #[test]
+    fn the_commands_of_unstable_cloths_alone_allow_it() {
+        for picture in pictures() {
+            let shot = read(&picture.command()).unwrap();
+            let unstable = shot.scene.cloth.as_ref().is_some_and(|cloth| {
+                shot.frame > 0 && Stability::new(cloth, &shot.scene.sim).unwrap().is_unstable_at_rest()
+            });
+            assert_eq!(shot.allow_unstable, unstable, "{}", picture.name);
+        }
+    }
+
+    #[test]
+    fn every_picture_has_the_size_of_the_report() {
+        for picture in pictures() {
+            assert_eq!(read(&picture.command()).unwrap().scene.render.size, [1024, 800], "{}", picture.name);
+        }
+    }
 }

@@ -39,7 +39,7 @@ pub(super) struct Args {
     /// a run that blows up or does not come to rest leaves the rows up to its last good frame
     #[arg(long, value_name = "FILE", conflicts_with = "bench")]
     csv: Option<PathBuf>,
-    /// Tell in the summary what each phase put in or took out; a step takes three to four times as long
+    /// Tell in the summary what each phase put in or took out; a step takes two to four times as long
     #[arg(long, conflicts_with_all = ["bench", "hash"])]
     ledger: bool,
     /// Print the number and the state hash of each frame instead of a summary

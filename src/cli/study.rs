@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use super::Session;
 use super::progress::Progress;
 use super::scene::SceneArgs;
+use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
-use crate::output::atomic;
+use crate::output::atomic::{self, Content};
 use crate::study::matrix::{Extent, Source};
 use crate::study::store::Store;
 use crate::study::{self, Results};
@@ -39,6 +39,9 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let folder = args.folder()?;
     let steps = study::steps(&source, &extent)?;
     let store = Store::new(&folder.join("cells"))?;
+    let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
+    let files = [&page, &json, &table].map(|file| (file.as_path(), Content::Text));
+    outputs::check(&args.scene.inputs(), files)?;
     let progress = Mutex::new((Progress::new(&session.ui, "studying, steps", steps), 0));
     let watch = |made: u32| {
         if let Ok(mut guard) = progress.lock() {
@@ -46,18 +49,21 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
             *done = (*done + u64::from(made)).min(steps);
             bar.set(*done);
         }
-        session.signals.check()
+        session.signals.check().map_err(|stopped| {
+            Error::new(stopped.kind, "stopped; what is finished is kept")
+                .with_help("the same command goes on from there")
+        })
     };
     let study = study::run(&source, &textures, &extent, &store, &watch)?;
     drop(progress);
     let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
     let results = Results::new(&study, &name, store.counts());
-    let json = serde_json::to_vec_pretty(&results)
+    let bytes = serde_json::to_vec_pretty(&results)
         .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
-    atomic::write(&folder.join("results.json"), &json)?;
-    atomic::write(&folder.join("results.csv"), study::csv(&study).as_bytes())?;
-    atomic::write(&folder.join("index.html"), study::page(&study, &name)?.as_bytes())?;
-    session.ui.note(&format!("{}: the report", folder.join("index.html").display()));
+    atomic::write(&json, &bytes)?;
+    atomic::write(&table, study::csv(&study).as_bytes())?;
+    atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
+    session.ui.note(&format!("{}: the report", page.display()));
     session.print(&results, &results.text())
 }
 

@@ -16,7 +16,8 @@ pub struct Entry<'a> {
 impl<'a> Entry<'a> {
     /// `figure` with the next of the pictures that were `made`, one for each that it names.
     pub fn new(figure: &'a Figure, made: &mut impl Iterator<Item = (&'a Shot, &'a Shown)>) -> Self {
-        let pictures = figure.pictures.iter().zip(made).map(|(picture, (shot, shown))| (picture, shot, shown));
+        let pictures =
+            figure.pictures.iter().zip(made).map(|(picture, (shot, shown))| (picture, shot, shown));
         Self { figure, pictures: pictures.collect() }
     }
 }
@@ -46,7 +47,14 @@ pub fn page(parts: &[(&Part, Vec<Entry<'_>>)]) -> String {
         sections += &format!("<h2>{title}</h2>\n");
         sections.extend(entries.iter().map(section));
     }
-    page::head("The figures of the report") + STYLE + TEXT + "<nav>\n" + &contents + "</nav>\n" + &sections + page::END
+    page::head("The figures of the report")
+        + STYLE
+        + TEXT
+        + "<nav>\n"
+        + &contents
+        + "</nav>\n"
+        + &sections
+        + page::END
 }
 
 fn link(name: &str) -> String {
@@ -72,8 +80,10 @@ fn row((picture, shot, shown): &(&Picture, &Shot, &Shown)) -> String {
         ("Stability", facts::margin(&shown.state)),
         ("Energy", facts::ledger(&shown.state)),
     ];
-    let terms: String =
-        terms.iter().map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text))).collect();
+    let terms: String = terms
+        .iter()
+        .map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text)))
+        .collect();
     format!(
         "<div class=\"row\">\n<figure><a href=\"{name}.png\">{}</a>\n<figcaption>{}</figcaption></figure>\n\
          <div><dl>\n{terms}</dl>\n<pre>{}</pre></div>\n</div>\n",
@@ -81,4 +91,49 @@ fn row((picture, shot, shown): &(&Picture, &Shot, &Shown)) -> String {
         page::escape(&picture.caption),
         page::escape(&picture.command()),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::shot;
+    use crate::gallery::table::parts;
+    use crate::render::Options;
+    use crate::scene::{Overrides, load_text};
+
+    /// Each picture of the table shown by one and the same tiny picture.
+    #[test]
+    fn the_page_has_every_figure_with_all_that_belongs_to_it() {
+        let text =
+            r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}, "render": {"size": [2, 2]}}"#;
+        let scene = load_text("ball", text, &Overrides::default()).unwrap().scene;
+        let shot = Shot { scene, options: Options::default(), frame: 0, allow_unstable: false };
+        let shown = shot::take(std::slice::from_ref(&shot), true, &|| Ok(())).unwrap();
+        let parts = parts().unwrap();
+        let entry = |figure| Entry::new(figure, &mut std::iter::repeat((&shot, &shown[0])));
+        let entries: Vec<_> =
+            parts.iter().map(|part| (part, part.figures.iter().map(entry).collect())).collect();
+        let page = page(&entries);
+
+        assert_eq!(page.matches("<section id=").count(), 51);
+        assert_eq!(page.matches("<h2>").count(), parts.len());
+        for figure in parts.iter().flat_map(|part| &part.figures) {
+            let start = format!("<section id=\"{}\">", figure.name());
+            let section = page.split(&start).nth(1).unwrap().split("</section>").next().unwrap();
+            assert!(page.contains(&format!("<a href=\"#{}\">", figure.name())));
+            assert!(section.contains(&page::escape(&figure.note)));
+            let count = figure.pictures.len();
+            for part in
+                ["<img alt=", "<figcaption>", "<dt>Stability</dt>", "<dt>Energy</dt>", "<dt>Parameters</dt>"]
+            {
+                assert_eq!(section.matches(part).count(), count, "{part} of {}", figure.name());
+            }
+            for picture in &figure.pictures {
+                assert!(section.contains(&page::escape(&picture.caption)), "{}", picture.name);
+                assert!(section.contains(&format!("<pre>{}</pre>", page::escape(&picture.command()))));
+                assert!(section.contains(&format!("<a href=\"{}.png\">", picture.name)));
+            }
+        }
+        assert!(!page.contains("http") && !page.contains("<script"));
+    }
 }

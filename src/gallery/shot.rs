@@ -186,3 +186,45 @@ fn half(picture: &Picture) -> Result<Vec<u8>> {
     }
     png::encode(width, height, &rgb, Effort::Small)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Overrides, load_stock};
+    use std::path::Path;
+
+    fn shot(scene: &str, sets: &[&str], frame: u64) -> Shot {
+        let sets = sets.iter().map(ToString::to_string).collect();
+        let overrides = Overrides { patches: Vec::new(), sets };
+        let scene = load_stock(Path::new(scene), &overrides).unwrap().scene;
+        Shot { scene, options: Options::default(), frame, allow_unstable: false }
+    }
+
+    #[test]
+    fn looks_share_a_simulation_and_worlds_do_not() {
+        let looks =
+            ["material.shader=bump", "sphere.resolution=[9,9]", "camera.polar=4", "light.color=[1,0,0]"];
+        let shots = [
+            shot("scenes/sphere.json", &[], 7),
+            shot("scenes/sphere.json", &["cloth.ks=4"], 9),
+            shot("scenes/sphere.json", &looks, 3),
+            shot("scenes/sphere.json", &["sphere.radius=0.1"], 0),
+            shot("scenes/sphere.json", &["sim.fps=30"], 0),
+            shot("scenes/plane.json", &[], 0),
+            shot("scenes/plane.json", &["plane.friction=0.1"], 0),
+            shot("scenes/plane.json", &["cloth=null"], 0),
+            Shot { allow_unstable: true, ..shot("scenes/plane.json", &[], 0) },
+        ];
+        let expected: [&[usize]; 8] = [&[1], &[2, 0], &[3], &[4], &[5], &[6], &[7], &[8]];
+        assert_eq!(simulations(&shots), expected);
+        assert_eq!(frames(&shots), 9 + 7);
+    }
+
+    #[test]
+    fn half_a_picture_is_the_mean_of_four_pixels() {
+        let rgb = [0, 10, 255, 1, 10, 255, 0, 20, 255, 1, 21, 254].to_vec();
+        let stats = crate::raster::Stats::default();
+        let picture = Picture { width: 2, height: 2, rgb, depth: Vec::new(), ids: Vec::new(), stats };
+        assert_eq!(half(&picture).unwrap(), png::encode(1, 1, &[1, 15, 255], Effort::Small).unwrap());
+    }
+}

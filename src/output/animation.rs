@@ -71,7 +71,7 @@ impl Changes {
         let differs_last = |before: &[u8], now: &[u8]| before.iter().zip(now).rposition(|(a, b)| a != b);
         let mut changed = rows().filter(|(_, (before, now))| before != now).map(|(y, _)| y);
         let top = changed.next().unwrap_or(0);
-        let bottom = changed.last().unwrap_or(top);
+        let bottom = changed.next_back().unwrap_or(top);
         let left = rows().filter_map(|(_, (before, now))| differs(before, now)).min().unwrap_or(0) / 3;
         let right = rows().filter_map(|(_, (before, now))| differs_last(before, now)).max().unwrap_or(0) / 3;
         Rectangle { left, top, width: right - left + 1, height: bottom - top + 1 }

@@ -21,6 +21,7 @@ mod render;
 mod report;
 mod rule;
 mod scalar;
+mod schema;
 mod source;
 mod stock;
 mod words;
@@ -30,6 +31,7 @@ use nalgebra::Vector3;
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
+pub use schema::schema;
 
 /// A point or direction in metres, world space, y up.
 pub type Vec3 = Vector3<f64>;

@@ -14,16 +14,6 @@ pub struct Method {
     pub name: &'static str,
     /// The changes, as `--set` takes them, after those of [`MODEL`].
     pub sets: &'static [&'static str],
-    /// Which steps it is run with.
-    #[serde(skip)]
-    rates: Rates,
-}
-
-/// Which steps per second a method is run with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Rates {
-    /// Multiples of the rate that is stable in every configuration, and the scene's own.
-    OfStability,
 }
 
 /// The differential equation that every method approaches: what else a scene asks for has no limit
@@ -40,10 +30,10 @@ pub const MODEL: [&str; 6] = [
 
 /// The methods; the first is also the reference's.
 pub const METHODS: &[Method] = &[
-    Method { name: "Verlet, half-step start", sets: &[], rates: Rates::OfStability },
-    Method { name: "Verlet, report start", sets: &["sim.start=report"], rates: Rates::OfStability },
-    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"], rates: Rates::OfStability },
-    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"], rates: Rates::OfStability },
+    Method { name: "Verlet, half-step start", sets: &[] },
+    Method { name: "Verlet, report start", sets: &["sim.start=report"] },
+    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"] },
+    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"] },
     Method {
         name: "as published",
         sets: &[
@@ -52,7 +42,6 @@ pub const METHODS: &[Method] = &[
             "sim.stretch_limit=0.1",
             "sim.self_collision=same_box",
         ],
-        rates: Rates::OfStability,
     },
 ];
 
@@ -201,7 +190,6 @@ fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Resul
         return Ok(panel);
     }
     for (number, method) in METHODS.iter().enumerate() {
-        let Rates::OfStability = method.rates;
         for &rate in &rates {
             let changes = method.sets.iter().map(ToString::to_string).chain(clock(stock.sim.fps, rate));
             let scene = source.scene(&panel.sets.iter().cloned().chain(changes).collect::<Vec<_>>())?;

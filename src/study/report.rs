@@ -14,7 +14,8 @@ use crate::output::png::{self, Effort, Pixels};
 /// What the page adds to the style of every page: plots side by side where there is room, at most as
 /// large as their text is meant to be read.
 const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
-.plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}td:nth-child(2),td.name{white-space:normal;text-align:left}</style>\n";
+.plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}th,td.name{white-space:normal}\
+.advice th:nth-child(2),.advice td:nth-child(2){white-space:normal;text-align:left;min-width:9rem}</style>\n";
 
 /// The page of `study` of the scene called `scene`.
 ///
@@ -25,10 +26,12 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
     text += &format!("<p>{}</p>\n", introduction(study));
     text += "<h2>If you can pay this, use that</h2>\n<p>Paid is wall time: per simulated second, and per picture.</p>\n";
     for panel in &study.panels {
-        text += &format!("<h3>{}</h3>\n{}", heading(panel), tables::advice(panel));
+        text +=
+            &format!("<h3>{}</h3>\n<div class=\"advice\">{}</div>\n", heading(panel), tables::advice(panel));
     }
     if let Some(pictures) = &study.pictures {
-        text += &format!("<h3>Pictures</h3>\n{}", tables::picture_advice(pictures));
+        text +=
+            &format!("<h3>Pictures</h3>\n<div class=\"advice\">{}</div>\n", tables::picture_advice(pictures));
     }
     for (number, panel) in study.panels.iter().enumerate() {
         text += &section(study, panel, number);

@@ -1,5 +1,7 @@
 //! Animations show the pictures that `render` draws, at the right times, whole or not at all.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
 use std::path::Path;

@@ -74,7 +74,12 @@ fn a_wrong_command_line_is_2() {
         &["compare", scene],
         &["compare", scene, "."],
         &["compare", "a", "b", "--budget", "0:1"],
+        &["compare-positions", scene],
+        &["compare-positions", scene, "p", "--tolerance", "-1"],
+        &["compare-positions", scene, "p", "--frame", "1", "--frames", "0..1"],
         &["check"],
+        &["completions", "tcsh"],
+        &["man", "frobnicate"],
         &["info", scene, "-q", "-v"],
         &["info", scene, "--color", "red"],
     ] {
@@ -99,6 +104,8 @@ fn no_command_is_2_and_shows_the_help() {
     let run = Scratch::new().run(&[]);
     assert_eq!((run.code, run.stdout.len()), (Some(2), 0));
     assert!(run.stderr.contains("Usage: drape"), "{}", run.stderr);
+    assert!(run.stderr.starts_with("A reference cloth simulator"), "{}", run.stderr);
+    assert!(!run.stderr.contains("error:"), "{}", run.stderr);
 }
 
 #[test]
@@ -214,6 +221,10 @@ fn a_file_that_cannot_be_read_is_6() {
         &["export", "no.json", "out.obj"],
         &["simulate", "small.json", "--patch", "no.json"],
         &["compare", "no.png", "no.png"],
+        &["compare", ".", "no.png"],
+        &["compare-positions", "small.json", "no.raw"],
+        &["compare-positions", "small.json", "small.json"],
+        &["compare", "no.folder", "."],
         &["compare", "small.json", "small.json"],
     ] {
         let (error, _) = fails(&scratch, arguments, 6, "io");
@@ -307,6 +318,33 @@ fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
     assert_eq!(scratch.run(&["check", "no.json", "a.json"]).code, Some(3));
     assert_eq!(scratch.run(&["check", "no.json", "small.json"]).code, Some(6));
     assert_eq!(scratch.run(&["check", "small.json", "--set", "cloth.ks=-1"]).code, Some(3));
+}
+
+#[test]
+fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("set")).expect("a folder");
+    let texture = ["--set", "material.shader=texture", "--set", "material.texture=granite"];
+    let stiff = ["--set", "cloth.ks=1e12"];
+    for (arguments, codes, says) in [
+        (&[][..], &[][..], "valid"),
+        (&["--set", "material.texture=granite"], &[], "valid"),
+        (&texture, &["check::texture"], "granite"),
+        (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "texture_1"),
+        (&["--set", "material.shader=mirror", "--textures", "set"], &["check::texture"], "posx"),
+        (&["--set", "material.shader=texture"], &[], "valid"),
+        (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
+        (&stiff, &["check::unstable"], "dt·ω"),
+        (&[&texture[..], &stiff].concat(), &["check::texture", "check::unstable"], "granite"),
+    ] {
+        let arguments = [&["check", "small.json"], arguments].concat();
+        let text = String::from_utf8(scratch.succeed(&arguments)).expect("text");
+        assert!(text.contains(says) && text.contains("small.json: valid"), "{arguments:?}: {text}");
+        let object = scratch.json(&[&arguments[..], &["--json"]].concat());
+        let warnings = object["files"][0]["warnings"].as_array().expect("a list").iter();
+        let found: Vec<_> = warnings.map(|warning| warning["code"].as_str().expect("a code")).collect();
+        assert_eq!(found, codes, "{arguments:?}");
+    }
 }
 
 #[test]

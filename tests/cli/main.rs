@@ -4,7 +4,11 @@
 mod animate;
 mod errors;
 mod files;
+#[path = "../naive/mod.rs"]
+mod naive;
+mod positions;
 mod results;
 mod scratch;
 mod signals;
+mod texts;
 mod threads;

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use drape::math::StateHash;
-use drape::output::atomic;
 use drape::output::compare::{Difference, triptych};
 use drape::output::png::{self, Effort, Pixels};
+use drape::output::{atomic, html, page};
 
 /// Largest golden: files, and pixels along each side.
 const MAX_BYTES: usize = 20 * 1024;
@@ -16,6 +16,9 @@ const MAX_SIDE: u32 = 256;
 
 /// The file of hashes: a name and 16 hexadecimal digits a line.
 const HASHES: &str = "hashes.txt";
+
+/// The file of state hashes, of the same form.
+const STATES: &str = "states.txt";
 
 /// The file of reasons: for each golden and hash its name and why it was blessed last.
 const REASONS: &str = "blessed.txt";
@@ -50,10 +53,21 @@ impl Goldens {
             return Err(format!("{name}: there is no golden; DRAPE_BLESS=\"reason\" makes it"));
         };
         let difference = Difference::between(&expected, actual);
-        let shown = self.failures.join(format!("{name}.png"));
-        save(&shown, &triptych(&expected, actual), Effort::Fast)?;
         let (differing, max) = (difference.differing(), difference.max());
-        Err(format!("{name}: {differing} pixels differ by up to {max}; see {}", shown.display()))
+        let verdict = format!("{differing} pixels differ by up to {max}");
+        let shown = self.show(name, &verdict, [&expected, actual])?;
+        Err(format!("{name}: {verdict}; see {}", shown.display()))
+    }
+
+    /// Leaves expected, difference and actual side by side, as a picture and as a page.
+    fn show(&self, name: &str, verdict: &str, pictures: [&Pixels; 2]) -> Result<PathBuf, String> {
+        let [expected, actual] = pictures;
+        save(&self.failures.join(format!("{name}.png")), &triptych(expected, actual), Effort::Fast)?;
+        let row = html::row(&html::Row { title: name, verdict, pictures }).map_err(|e| e.to_string())?;
+        let file = self.failures.join(format!("{name}.html"));
+        atomic::write(&file, (page::head("A golden that differs") + &row + page::END).as_bytes())
+            .map_err(|e| e.to_string())?;
+        Ok(file)
     }
 
     /// Compares the hash of a picture with the one kept under `name`.
@@ -61,28 +75,39 @@ impl Goldens {
     /// # Errors
     /// As [`Goldens::check`].
     pub(crate) fn check_hash(&self, name: &str, actual: &Pixels) -> Result<(), String> {
-        let hash = format!("{:016x}", hash(actual));
-        let expected = self.entries(HASHES).remove(name);
-        if expected.as_ref() == Some(&hash) {
+        self.check_entry(HASHES, name, &format!("{:016x}", hash(actual)))
+    }
+
+    /// Compares the hash of a state with the one kept under `name`.
+    ///
+    /// # Errors
+    /// As [`Goldens::check`].
+    pub(crate) fn check_state(&self, name: &str, hash: &str) -> Result<(), String> {
+        self.check_entry(STATES, name, hash)
+    }
+
+    fn check_entry(&self, file: &str, name: &str, hash: &str) -> Result<(), String> {
+        let expected = self.entries(file).remove(name);
+        if expected.as_deref() == Some(hash) {
             return Ok(());
         }
         if self.bless.is_some() {
-            return self.bless(name, || self.set(HASHES, name, &hash));
+            return self.bless(name, || self.set(file, name, hash));
         }
         match expected {
-            None => Err(format!("{name}: there is no hash; DRAPE_BLESS=\"reason\" makes it")),
-            Some(expected) => Err(format!("{name}: the picture's hash is {hash}, not {expected}")),
+            None => Err(format!("{name}: there is no hash in {file}; DRAPE_BLESS=\"reason\" makes it")),
+            Some(expected) => Err(format!("{name}: the hash is {hash}, not {expected} as in {file}")),
         }
     }
 
-    /// Every name that has a golden, a hash or a reason, and the names that have each.
-    pub(crate) fn names(&self) -> [Vec<String>; 3] {
+    /// The names that have a golden, a hash, a state hash and a reason.
+    pub(crate) fn names(&self) -> [Vec<String>; 4] {
         let files = fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
-        let texts = [HASHES, REASONS];
+        let texts = [HASHES, STATES, REASONS];
         let mut pictures: Vec<_> = files.map(name).filter(|name| !texts.contains(&name.as_str())).collect();
         pictures.sort();
-        [pictures, self.keys(HASHES), self.keys(REASONS)]
+        [pictures, self.keys(HASHES), self.keys(STATES), self.keys(REASONS)]
     }
 
     /// Replaces a golden for a stated reason. The run fails all the same, so that no run that
@@ -150,6 +175,19 @@ pub(crate) fn check_size(file: &Path) -> Result<(), String> {
 pub(crate) fn save(file: &Path, picture: &Pixels, effort: Effort) -> Result<(), String> {
     fs::create_dir_all(file.parent().unwrap_or(file)).map_err(|e| e.to_string())?;
     atomic::write(file, &encode(picture, effort)?).map_err(|e| e.to_string())
+}
+
+/// A picture at half its width and height; each pixel is the mean of four, rounded.
+pub(crate) fn half(picture: &Pixels) -> Pixels {
+    let (width, height) = (picture.width / 2, picture.height / 2);
+    let at = |x: u32, y: u32| picture.rgba[(y * picture.width + x) as usize];
+    let mean = |x: u32, y: u32| {
+        let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+        let sum = |channel: usize| four.iter().map(|pixel| u32::from(pixel[channel])).sum::<u32>();
+        [0, 1, 2, 3].map(|channel| u8::try_from((sum(channel) + 2) / 4).unwrap_or(u8::MAX))
+    };
+    let rgba = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Pixels { width, height, rgba: rgba.map(|(x, y)| mean(2 * x, 2 * y)).collect() }
 }
 
 /// Opaque pictures are kept without alpha.

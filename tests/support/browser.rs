@@ -13,7 +13,8 @@ const found={width:innerWidth,page:document.documentElement.scrollWidth,\
 images:all('img').length,loaded:all('img').filter(i=>i.complete&&i.naturalWidth>0&&box(i).width>0).length,\
 plots:all('svg').length,seen:all('svg').filter(p=>box(p).width>200&&box(p).right<=innerWidth+1).length,\
 marks:all('svg g path').length,\
-text:Math.min(...all('svg text').map(t=>parseFloat(getComputedStyle(t).fontSize)*t.getScreenCTM().a)),\
+text:Math.min(...all('svg text').map(t=>parseFloat(getComputedStyle(t).fontSize)*\
+Math.hypot(t.getScreenCTM().a,t.getScreenCTM().b))),\
 paper:getComputedStyle(document.body).backgroundColor};\
 const pre=document.createElement('pre');pre.id='probe';pre.textContent=JSON.stringify(found);\
 document.body.append(pre)})</script>";
