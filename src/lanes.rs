@@ -71,6 +71,19 @@ pub trait Lane:
 #[repr(C, align(32))]
 pub struct Wide<T>(pub [T; WIDTH]);
 
+impl<T: Copy> Wide<T> {
+    /// `f` of every lane. A loop, because the standard library's `map` over arrays is not sure to be
+    /// compiled into the caller's vector instructions.
+    #[inline(always)]
+    fn each<U: Copy + Default>(self, f: impl Fn(T) -> U) -> Wide<U> {
+        let mut result = Wide([U::default(); WIDTH]);
+        for (result, value) in result.0.iter_mut().zip(self.0) {
+            *result = f(value);
+        }
+        result
+    }
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, $op:tt) => {
         impl<T: Copy + $trait<Output = T>> $trait for Wide<T> {
@@ -90,11 +103,11 @@ operator!(Sub, sub, -);
 operator!(Mul, mul, *);
 operator!(Div, div, /);
 
-impl<T: Copy + Neg<Output = T>> Neg for Wide<T> {
+impl<T: Copy + Default + Neg<Output = T>> Neg for Wide<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|a| -a))
+        self.each(|a| -a)
     }
 }
 
@@ -156,7 +169,11 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
-                Self(std::array::from_fn(|i| f(i).into()))
+                let mut result = Self([0.0; WIDTH]);
+                for (i, result) in result.0.iter_mut().enumerate() {
+                    *result = f(i).into();
+                }
+                result
             }
             #[inline(always)]
             fn splat_double(value: f64) -> Wide<f64> {
@@ -164,7 +181,7 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn narrow(double: Wide<f64>) -> Self {
-                Self(double.0.map(|d| d as $scalar))
+                double.each(|d| d as $scalar)
             }
             #[inline(always)]
             fn lane(self, index: usize) -> f64 {
@@ -178,11 +195,11 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
-                Self(self.0.map(<$scalar>::sqrt))
+                self.each(<$scalar>::sqrt)
             }
             #[inline(always)]
             fn floor(self) -> Self {
-                Self(self.0.map(<$scalar>::floor))
+                self.each(<$scalar>::floor)
             }
             #[inline(always)]
             fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {

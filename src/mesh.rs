@@ -74,23 +74,23 @@ impl Mesh {
     }
 
     /// The unit ball of a sphere's resolution: (lat + 1)(lon + 1) vertices, latitude outer.
-    /// With v = i/lat and u = j/lon, λ = πv and θ = 2π((u + 0.5) mod 1).
+    /// With v = i/lat and u = j/lon, λ = πv and θ as in `turn`.
     pub fn sphere(sphere: &Sphere, needs: Needs) -> Self {
         let [lat, lon] = sphere.resolution;
         let mut mesh = Self::default();
+        let turns: Vec<_> = (0..=lon).map(|j| turn(f64::from(j) / f64::from(lon))).collect();
         for i in 0..=lat {
-            for j in 0..=lon {
-                let (v, u) = (f64::from(i) / f64::from(lat), f64::from(j) / f64::from(lon));
-                let lambda = std::f64::consts::PI * v;
-                let turn = u + 0.5;
-                let theta = 2.0 * std::f64::consts::PI * (turn - turn.floor());
-                let normal = Vector3::new(sin(lambda) * sin(theta), cos(lambda), sin(lambda) * cos(theta));
+            let v = f64::from(i) / f64::from(lat);
+            let lambda = std::f64::consts::PI * v;
+            let (sin_lambda, cos_lambda) = (sin(lambda), cos(lambda));
+            for &(u, sin_theta, cos_theta) in &turns {
+                let normal = Vector3::new(sin_lambda * sin_theta, cos_lambda, sin_lambda * cos_theta);
                 mesh.positions.push(round(normal));
                 if needs.normal {
                     mesh.normals.push(round(normal));
                 }
                 if needs.tangent {
-                    mesh.tangents.push(round(Vector3::new(cos(theta), 0.0, -sin(theta))));
+                    mesh.tangents.push(round(Vector3::new(cos_theta, 0.0, -sin_theta)));
                 }
                 if needs.uv {
                     mesh.uvs.push([u, v].map(to_f32));
@@ -117,6 +117,13 @@ impl Mesh {
             triangles: vec![[0, 1, 2], [2, 1, 3]],
         }
     }
+}
+
+/// u, sin θ and cos θ of a ball's meridian: θ = 2π((u + 0.5) mod 1).
+fn turn(u: f64) -> (f64, f64, f64) {
+    let turn = u + 0.5;
+    let theta = 2.0 * std::f64::consts::PI * (turn - turn.floor());
+    (u, sin(theta), cos(theta))
 }
 
 /// Two triangles per cell of a `columns` × `rows` grid of vertices, cells row-major, made by

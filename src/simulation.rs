@@ -2,28 +2,23 @@
 
 mod guarded;
 mod locate;
+mod scheme;
+mod state;
+mod stiffness;
 mod stopwatch;
 
 pub use stopwatch::Timings;
 
+use state::State;
 use stopwatch::Stopwatch;
 
-use crate::cloth::collide::Objects;
-use crate::cloth::contact::Outside;
 use crate::cloth::energy::Energy;
-use crate::cloth::forces::Forces;
-use crate::cloth::grid::{self, Grid, Pins};
-use crate::cloth::guard::{Allowance, Budget};
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
-use crate::cloth::neighbors::Neighbors;
-use crate::cloth::self_collision::SelfCollision;
-use crate::cloth::springs::Springs;
-use crate::cloth::stretch_limit::StretchLimit;
-use crate::cloth::{Constants, Counters, Points, verlet};
+use crate::cloth::{Constants, Counters, Points};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
-use crate::scene::{Scene, Start};
+use crate::scene::Scene;
 
 /// A scene in motion. Without a cloth it has zero points, and only its clock moves.
 #[derive(Clone, Debug)]
@@ -36,28 +31,6 @@ pub struct Simulation {
     stopwatch: Stopwatch,
     no_points: Points,
     guarded: bool,
-}
-
-/// The state of a cloth and what its step needs; phases that the scene does without are absent.
-#[derive(Clone, Debug)]
-struct State {
-    constants: Constants,
-    grid: Grid,
-    pins: Pins,
-    springs: Springs,
-    x: Points,
-    last: Points,
-    forces: Forces,
-    self_collision: Option<SelfCollision>,
-    neighbors: Option<Neighbors>,
-    objects: Option<Objects>,
-    stretch_limit: Option<StretchLimit>,
-    outside: Option<Outside>,
-    recorder: Option<Recorder>,
-    allowance: Allowance,
-    budget: Budget,
-    /// Positions and last positions where the frame began.
-    frame_start: [Points; 2],
 }
 
 /// A position that a step is too short for.
@@ -120,7 +93,7 @@ impl Simulation {
 
     /// Makes the steps of one frame, then checks that every position is a number within ±1e15 m
     /// and, unless [`Simulation::allow_unstable`] was called, that the cloth holds no more energy
-    /// than its forces can give it (`src/cloth/guard.rs` says how much that is).
+    /// than its forces can give it, nor got more if a ledger is kept (see `src/cloth/guard.rs`).
     ///
     /// # Errors
     /// [`Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
@@ -204,7 +177,7 @@ impl Simulation {
     /// [`Kind::Scene`] when the ledger does not fit in memory.
     pub fn record_ledger(&mut self) -> Result<()> {
         if let Some(cloth) = &mut self.cloth {
-            cloth.recorder = Some(Recorder::new(cloth.x.len())?);
+            cloth.recorder = Some(Recorder::new(cloth.x.len(), true)?);
         }
         Ok(())
     }
@@ -239,112 +212,5 @@ impl Simulation {
     /// How long each phase took since [`Simulation::record_timings`], if it was called.
     pub fn timings(&self) -> Option<Timings> {
         self.stopwatch.timings
-    }
-}
-
-impl State {
-    /// The cloth of `scene` at its start, if there is one.
-    fn new(scene: &Scene) -> Result<Option<Self>> {
-        let Some(cloth) = &scene.cloth else { return Ok(None) };
-        let grid = Grid::new(cloth)?;
-        let x = grid::start(cloth, grid)?;
-        let springs = Springs::new(cloth, grid, &x)?;
-        let constants = Constants::new(cloth, &scene.sim);
-        let mut state = Self {
-            constants,
-            grid,
-            pins: Pins::new(cloth, grid)?,
-            last: grid::start(cloth, grid)?,
-            forces: Forces::new(&springs)?,
-            self_collision: SelfCollision::new(cloth, &scene.sim, grid, &x)?,
-            neighbors: Neighbors::new(cloth, &scene.sim, &x)?,
-            objects: Objects::new(scene),
-            outside: Outside::new(scene, &x)?,
-            stretch_limit: StretchLimit::new(&scene.sim, &springs)?,
-            recorder: None,
-            budget: Budget::default(),
-            frame_start: [Points::zeros(grid.len())?, Points::zeros(grid.len())?],
-            allowance: Allowance::new(scene, cloth, &springs, &constants),
-            springs,
-            x,
-        };
-        if scene.sim.start == Start::HalfStep {
-            state.start_half_step();
-        }
-        state.set_budget();
-        Ok(Some(state))
-    }
-
-    /// Puts the last positions where points at rest would have been one step ago under the forces at
-    /// the start: `last = x + f dt² / (2 m)`.
-    fn start_half_step(&mut self) {
-        let Self { constants, pins, springs, x, last, forces, .. } = self;
-        forces.compute(x, springs, constants.weight, &mut Counters::default());
-        let half = 0.5 * constants.dt * constants.dt / constants.mass;
-        for p in pins.free.iter().cloned().flatten() {
-            last.set(p, x.get(p) + forces.sum.get(p) * half);
-        }
-    }
-
-    /// One step of the method. The phases after Verlet's change positions and never `last`.
-    fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
-        let Self { constants, pins, springs, x, last, forces, recorder, .. } = self;
-        stopwatch.start();
-        if let Some(recorder) = recorder {
-            recorder.begin(x, last, springs);
-        }
-
-        // 1. Forces: the weight of every point and the pull of every spring.
-        forces.compute(x, springs, constants.weight, counters);
-        stopwatch.lap(|timings| &mut timings.forces);
-
-        // 2. Verlet: every free point moves on.
-        verlet::advance(x, last, &forces.sum, pins, constants, counters);
-        stopwatch.lap(|timings| &mut timings.verlet);
-        if let Some(recorder) = recorder {
-            recorder.advanced(x, last, &forces.sum, springs, pins, constants);
-        }
-        let mut book = |x: &Points, last: &Points, entry: fn(&mut Ledger) -> &mut f64| {
-            if let Some(recorder) = recorder {
-                recorder.corrected(x, last, springs, constants, entry);
-            }
-        };
-
-        // 3. Self-collision: close points of one box move apart.
-        if let Some(self_collision) = &mut self.self_collision {
-            self_collision.apply(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.self_collision);
-            book(x, last, |ledger| &mut ledger.self_collision);
-        }
-        if let Some(neighbors) = &mut self.neighbors {
-            neighbors.apply(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.self_collision);
-            book(x, last, |ledger| &mut ledger.self_collision);
-        }
-
-        // 4. Objects: points that went through a plane or into a sphere are put back.
-        if let Some(objects) = &self.objects {
-            objects.collide_planes(x, last, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            objects.collide_spheres(x, last, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
-        }
-
-        // 5. Stretch limit: springs that are too long are shortened.
-        if let Some(stretch_limit) = &self.stretch_limit {
-            stretch_limit.apply(x, springs, pins, counters);
-            stopwatch.lap(|timings| &mut timings.stretch_limit);
-            book(x, last, |ledger| &mut ledger.stretch_limit);
-        }
-
-        // Where the scene asks for it: points that the phases left inside an object leave it.
-        if let Some(outside) = &self.outside {
-            outside.leave_planes(x, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            outside.leave_spheres(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
-        }
     }
 }

@@ -403,6 +403,94 @@ fn the_stock_cloth_has_its_known_stability() {
     }
 }
 
+/// The largest eigenvalue at rest that is found for `scene`, in N/m.
+fn found_at_rest(scene: &Scene) -> f64 {
+    let stability = Stability::new(scene.cloth.as_ref().unwrap(), &scene.sim).unwrap();
+    stability.omega_rest * stability.omega_rest * stability.mass
+}
+
+/// The largest eigenvalue of the endless lattice of `cloth`, over waves of every length: a spring
+/// over (dx, dy) with phase difference f between its ends resists by `4 k sin²(f / 2) n nᵀ`.
+fn lattice(cloth: &Cloth) -> f64 {
+    let spacing = [
+        cloth.width / (cloth.num_width_points - 1) as f64,
+        cloth.height / (cloth.num_height_points - 1) as f64,
+    ];
+    let springs = [
+        (cloth.enable_structural, 1.0, [[1.0, 0.0], [0.0, 1.0]]),
+        (cloth.enable_shearing, 1.0, [[1.0, 1.0], [-1.0, 1.0]]),
+        (cloth.enable_bending, 0.2, [[2.0, 0.0], [0.0, 2.0]]),
+    ];
+    let largest = |p: f64, q: f64| {
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for (_, factor, offsets) in springs.into_iter().filter(|(enabled, ..)| *enabled) {
+            for [dx, dy] in offsets {
+                let half = sin((dx * p + dy * q) / 2.0);
+                let k = 4.0 * factor * cloth.ks * half * half;
+                let (x, y) = (dx * spacing[0], dy * spacing[1]);
+                let square = x * x + y * y;
+                (xx, xy, yy) = (xx + k * x * x / square, xy + k * x * y / square, yy + k * y * y / square);
+            }
+        }
+        (xx + yy) / 2.0 + ((xx - yy) * (xx - yy) / 4.0 + xy * xy).sqrt()
+    };
+    let waves = || (0..=64).map(|wave| f64::from(wave) * std::f64::consts::PI / 64.0);
+    waves().flat_map(|p| waves().map(move |q| (p, q))).map(|(p, q)| largest(p, q)).fold(0.0, f64::max)
+}
+
+/// A large cloth of any springs vibrates as fast as its endless lattice, but for 0.5 % of the
+/// eigenvalue.
+#[test]
+fn a_large_cloth_vibrates_as_its_endless_lattice() {
+    for kinds in 1..8 {
+        for height in [1.0, 1.7, 0.2] {
+            let mut scene = springs_only(90, 80);
+            let cloth = cloth(&mut scene);
+            cloth.height = height;
+            (cloth.enable_structural, cloth.enable_shearing, cloth.enable_bending) =
+                (kinds & 1 > 0, kinds & 2 > 0, kinds & 4 > 0);
+            let endless = lattice(cloth);
+            let part = found_at_rest(&scene) / endless;
+            assert!(
+                (0.995..1.0).contains(&part),
+                "kinds {kinds:03b}, height {height}: {part} of {endless} N/m"
+            );
+        }
+    }
+}
+
+/// Wherever the pins are, the fastest vibration is that of the points which are free.
+#[test]
+fn pins_anywhere_on_a_large_cloth_are_seen() {
+    let pinned = |held: &dyn Fn(usize, usize) -> bool| {
+        let mut scene = springs_only(200, 150);
+        let points = (0..150).flat_map(|j| (0..200).map(move |i| [i, j]));
+        cloth(&mut scene).height = 149.0 / 199.0;
+        cloth(&mut scene).pinned = points.filter(|&[i, j]| held(i, j)).collect();
+        found_at_rest(&scene) / 5000.0
+    };
+    let close = |found: f64, exact: f64, part: f64, what: &str| {
+        assert!(found <= exact * (1.0 + 1e-12) && found >= part * exact, "{what}: {found} of {exact} ks");
+    };
+    close(pinned(&|i, j| i < 64 && j < 64), 8.0, 0.999, "the first corner pinned");
+    close(pinned(&|i, j| i < 130 || j < 80), 8.0, 0.999, "all but the last corner pinned");
+    close(pinned(&|_, _| true), 0.0, 1.0, "all pinned");
+    // One point alone: structural springs 2 ks, shearing 2 ks, bending 0.4 ks along each axis.
+    close(pinned(&|i, j| [i, j] != [170, 140]), 4.4, 1.0 - 1e-9, "one point free");
+    close(pinned(&|i, j| i % 3 > 0 || j % 3 > 0), 4.4, 1.0 - 1e-9, "no two free points joined");
+    close(pinned(&|i, j| i % 50 == 0 || j % 50 == 0), 8.0, 0.99, "squares of 49 x 49 free");
+
+    // Nine by seven free points in the middle of nowhere, against the matrix of these alone.
+    let block = |i, j, [x, y]: [usize; 2]| !((x..x + 9).contains(&i) && (y..y + 7).contains(&j));
+    let mut small = springs_only(13, 11);
+    cloth(&mut small).height = 10.0 / 12.0;
+    let points = (0..11).flat_map(|j| (0..13).map(move |i| [i, j]));
+    cloth(&mut small).pinned = points.filter(|&[i, j]| block(i, j, [2, 2])).collect();
+    let rest = Simulation::new(&small).unwrap().positions().clone();
+    let exact = eigenvalues(&small, &rest, &rest).last().unwrap() / 5000.0;
+    close(pinned(&|i, j| block(i, j, [101, 77])), exact, 0.999, "a block free");
+}
+
 /// The eigenvalues of the stiffness of `scene`'s springs with the points at `x`, straight from
 /// the definition, pinned points held, smallest first, in N/m.
 fn eigenvalues(scene: &Scene, x: &Points, rest: &Points) -> Vec<f64> {

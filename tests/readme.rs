@@ -48,7 +48,7 @@ fn shell(line: &str, folder: &Path) -> Output {
 fn outputs(line: &str) -> Vec<&str> {
     let code = line.split('#').next().unwrap_or_default();
     let words = code.split_whitespace().filter(|word| !word.contains(['/', '$']));
-    words.filter(|word| word.ends_with(".png") || word.ends_with(".obj")).collect()
+    words.filter(|word| [".png", ".apng", ".obj"].iter().any(|ending| word.ends_with(ending))).collect()
 }
 
 #[test]

@@ -531,3 +531,22 @@ fn all_damping_per_second_is_an_error() {
     scene(&["cloth.damping=100"]).unwrap();
     scene(&["cloth.damping=99.99", "sim.damping=\"per_second\""]).unwrap();
 }
+
+#[test]
+fn what_belongs_to_another_integrator_is_an_error() {
+    let scene = |set: &[&str]| load("scenes/pinned2.json".as_ref(), &sets(set));
+    for integrator in ["xpbd", "implicit_euler", "bdf2"] {
+        let integrator = format!("sim.integrator={integrator}");
+        for (key, what) in [("sim.start=half_step", "starts with"), ("sim.precision=f32", "runs in binary32")]
+        {
+            let error = scene(&[&integrator, key]).unwrap_err().to_string();
+            assert!(error.contains(&format!("only Verlet's scheme {what}")), "{integrator} {key}: {error}");
+            scene(&[key]).unwrap();
+        }
+        scene(&[&integrator, "sim.start=report", "sim.precision=f64"]).unwrap();
+    }
+    scene(&["sim.iterations=7", "sim.tolerance=1e-9"]).unwrap();
+    refuses("sim.iterations=0", &["scene::out_of_range sim.iterations"]);
+    refuses("sim.tolerance=0", &["scene::out_of_range sim.tolerance"]);
+    refuses("sim.integrator=euler", &["scene::unknown_value sim.integrator"]);
+}

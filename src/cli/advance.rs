@@ -7,11 +7,12 @@ use super::progress::Progress;
 use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
 use crate::error::{Error, Kind, Result};
-use crate::scene::Scene;
+use crate::scene::{Integrator, Scene};
 use crate::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
-/// blow up is refused, unless that is allowed.
+/// blow up is refused, unless that is allowed, and one that may blow up behind the stretch limit is
+/// watched by a ledger.
 ///
 /// # Errors
 /// [`Kind::Unstable`] for such a cloth; otherwise as [`Simulation::new`].
@@ -29,6 +30,10 @@ pub(super) fn start(
         if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
             return Err(error);
         }
+        // No other integrator has a largest step; the guard watches them while they run.
+        if scene.sim.integrator != Integrator::Verlet {
+            return Ok(simulation);
+        }
         let stability = Stability::new(cloth, &scene.sim)?;
         if stability.is_unstable_at_rest() {
             let error = certain(&stability, cloth.ks, scene.sim.steps_per_frame);
@@ -38,6 +43,9 @@ pub(super) fn start(
             session.ui.note(&format!("warning: {error}"));
         } else if !stability.is_always_stable() {
             session.ui.note(&format!("warning: {}", possible(&stability, scene.sim.steps_per_frame)));
+            if !allow_unstable && scene.sim.stretch_limit.is_some() {
+                simulation.record_ledger()?;
+            }
         }
     }
     Ok(simulation)
@@ -57,7 +65,7 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
 }
 
 /// The error of a cloth that vibrates too fast even at rest.
-fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
+pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
     let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(

@@ -7,7 +7,10 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use super::ui::{Color, Ui};
-use super::{check, compare, export, gallery, info, render, simulate, stability};
+use super::{
+    animate, check, compare, compare_positions, export, gallery, info, render, simulate, stability, study,
+    texts,
+};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic;
 
@@ -46,12 +49,18 @@ struct Global {
 pub(super) enum Command {
     /// Simulate a scene and draw one picture of it
     Render(render::Args),
+    /// Draw a scene in motion: PNG files, an animated PNG, a GIF or a film
+    Animate(animate::Args),
     /// Simulate a scene without drawing it
     Simulate(simulate::Args),
     /// Write the simulated cloth as a mesh (OBJ)
     Export(export::Args),
     /// Tell how two pictures, or the pictures of two folders, differ
     Compare(compare::Args),
+    /// Tell where the positions of another program part from the method, and by which mistake
+    ComparePositions(compare_positions::Args),
+    /// Measure speed against accuracy: methods and steps against a reference, ways of drawing
+    Study(study::Args),
     /// Tell what a scene needs and what is therefore left out
     Info(info::Args),
     /// Tell everything that is wrong in scene files
@@ -60,6 +69,12 @@ pub(super) enum Command {
     Stability(stability::Args),
     /// Make every figure of the report, and a page of them
     Gallery(gallery::Args),
+    /// Print the JSON schema of scene files
+    Schema,
+    /// Print the script that completes this program's commands and options in a shell
+    Completions(texts::CompletionsArgs),
+    /// Print the manual page of this program or of a command
+    Man(texts::ManArgs),
 }
 
 impl Arguments {
@@ -80,8 +95,16 @@ impl Arguments {
 }
 
 /// What to make of arguments that name no command: help and version go to standard output,
-/// anything else is an error of use.
-pub(super) fn refuse(refusal: &clap::Error) -> Result<()> {
+/// anything else is an error of use. No arguments at all are answered with the help alone.
+pub(super) fn refuse(refusal: &clap::Error, ui: &Ui) -> u8 {
+    if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        ui.note(refusal.render().to_string().trim_end());
+        return Kind::Usage.exit_code();
+    }
+    super::exit_code(ui, refused(refusal))
+}
+
+fn refused(refusal: &clap::Error) -> Result<()> {
     if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         let text = refusal.render();
         let colored = Color::Auto.applies(io::stdout().is_terminal());

@@ -1,4 +1,4 @@
-//! `drape check`: everything that is wrong in scene files, nothing run.
+//! `drape check`: everything that is wrong in scene files, and what would fail later; nothing run.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,13 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::Session;
+use super::advance::certain;
 use super::scene::Changes;
 use super::ui::paint;
+use crate::cloth::stability::Stability;
 use crate::error::{Diagnostic, Error, Kind, Result};
-use crate::scene;
+use crate::scene::{self, Integrator, Plan, Scene};
+use crate::texture_source::TextureSource;
 
 /// What `check` takes.
 #[derive(clap::Args)]
@@ -19,6 +22,9 @@ pub(super) struct Args {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     changes: Changes,
+    /// Look for textures in this folder instead of the built-in set
+    #[arg(long, value_name = "DIR")]
+    textures: Option<PathBuf>,
 }
 
 /// What was found in all files.
@@ -42,10 +48,11 @@ struct Findings {
 
 /// Prints what was found; the worst of it decides the exit code.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
+    let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let mut files = Vec::new();
     for path in &args.paths {
         session.signals.check()?;
-        files.push(check(path, &args.changes));
+        files.push(check(path, &args.changes, &textures));
     }
     let colored = session.ui.color.applies(std::io::stdout().is_terminal());
     let text = files.iter().map(|file| file.text(colored)).collect::<String>();
@@ -64,7 +71,7 @@ fn worse(a: Kind, b: Kind) -> Kind {
     if a == Kind::Scene { a } else { b }
 }
 
-fn check(path: &Path, changes: &Changes) -> Findings {
+fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
     let mut findings = Findings {
         file: path.display().to_string(),
         errors: Vec::new(),
@@ -73,7 +80,10 @@ fn check(path: &Path, changes: &Changes) -> Findings {
         kind: None,
     };
     match scene::load(path, &changes.overrides()) {
-        Ok(loaded) => findings.warnings = loaded.warnings,
+        Ok(loaded) => {
+            findings.warnings = loaded.warnings;
+            findings.warnings.extend(foreseen(&findings.file, &loaded.scene, textures));
+        }
         Err(error) => {
             findings.kind = Some(error.kind);
             findings.failure = error.diagnostics.is_empty().then(|| error.to_string());
@@ -81,6 +91,42 @@ fn check(path: &Path, changes: &Changes) -> Findings {
         }
     }
     findings
+}
+
+/// What would stop a later command, though the scene itself is valid: textures that cannot be read,
+/// a cloth that cannot be moved.
+fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
+    let plan = Plan::of(scene);
+    let images = plan.textures.iter().filter_map(|name| textures.texture(name).err());
+    let cubes = plan.environments.iter().filter_map(|name| textures.cubemap(name).err());
+    let mut warnings: Vec<_> =
+        images.chain(cubes).map(|error| warning(file, "check::texture", &error)).collect();
+    warnings.extend(instability(scene).map(|error| warning(file, "check::unstable", &error)));
+    warnings
+}
+
+/// Why the first step would be refused, if it would.
+fn instability(scene: &Scene) -> Option<Error> {
+    // No other integrator has a largest step.
+    let cloth = scene.cloth.as_ref().filter(|_| scene.sim.integrator == Integrator::Verlet)?;
+    match Stability::new(cloth, &scene.sim) {
+        Ok(stability) => {
+            let unstable = stability.is_unstable_at_rest();
+            unstable.then(|| certain(&stability, cloth.ks, scene.sim.steps_per_frame))
+        }
+        Err(error) => Some(error),
+    }
+}
+
+/// A failure to come, at no place of the file.
+fn warning(file: &str, code: &'static str, error: &Error) -> Diagnostic {
+    let Error { message, help, .. } = error;
+    let mut rendered = format!("warning[{code}]: {message}\n --> {file}");
+    if !help.is_empty() {
+        rendered += &format!("\n  = help: {help}");
+    }
+    let (message, help, file) = (message.clone(), help.clone(), file.to_owned());
+    Diagnostic { code, message, file, line: 0, column: 0, key: String::new(), help, rendered }
 }
 
 impl Findings {

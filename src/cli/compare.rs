@@ -64,6 +64,10 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let inputs = [args.expected.as_path(), args.actual.as_path()];
     let files = [(&args.diff, Content::Binary), (&args.html, Content::Text)];
     outputs::check(&inputs, files.iter().filter_map(|(path, content)| Some((path.as_deref()?, *content))))?;
+    for path in inputs {
+        fs::metadata(path)
+            .map_err(|e| Error::new(Kind::Io, format!("cannot read `{}`: {e}", path.display())))?;
+    }
     match inputs.map(Path::is_dir) {
         [false, false] => compare_files(args, session),
         [true, true] => compare_folders(args, session),

@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::scene::{SceneArgs, frame_at};
 use super::{Session, counts};
+use crate::cloth::Constants;
 use crate::cloth::stability::Stability;
 use crate::error::Result;
-use crate::scene::{Cloth, Item, Plan, Scene};
+use crate::scene::{Cloth, Integrator, Item, Plan, Scene};
 
 /// What `info` takes.
 #[derive(clap::Args)]
@@ -42,12 +43,21 @@ struct ClothInfo {
     /// Mass of a point, kg.
     mass: f64,
     dt: f64,
+    integrator: &'static str,
+    /// How the springs stand the step; nothing for an integrator without a largest step.
+    #[serde(flatten)]
+    bound: Option<Bound>,
+    stable: &'static str,
+}
+
+/// The step of an explicit integrator against the fastest vibrations of the springs.
+#[derive(Serialize)]
+struct Bound {
     dt_omega_rest: f64,
     dt_omega_worst: f64,
     dt_omega_limit: f64,
     fewest_steps_rest: f64,
     fewest_steps_worst: f64,
-    stable: &'static str,
 }
 
 /// The largest arrays, in bytes; a lower bound of what a run takes.
@@ -104,8 +114,9 @@ impl Info {
 impl ClothInfo {
     fn of(cloth: &Cloth, scene: &Scene) -> Result<Self> {
         let [structural, shearing, bending] = counts::springs(cloth);
-        let stability = Stability::new(cloth, &scene.sim)?;
-        let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = stability;
+        let explicit = scene.sim.integrator == Integrator::Verlet;
+        let stability = explicit.then(|| Stability::new(cloth, &scene.sim)).transpose()?;
+        let Constants { mass, dt, .. } = Constants::new(cloth, &scene.sim);
         Ok(Self {
             points: [cloth.num_width_points, cloth.num_height_points],
             structural,
@@ -114,29 +125,49 @@ impl ClothInfo {
             pinned: cloth.pinned.len(),
             mass,
             dt,
-            dt_omega_rest: dt * omega_rest,
-            dt_omega_worst: dt * omega_safe,
-            dt_omega_limit: limit,
-            fewest_steps_rest: stability.fewest_steps(omega_rest),
-            fewest_steps_worst: stability.fewest_steps(omega_safe),
-            stable: verdict(&stability),
+            integrator: scene.sim.integrator.name(),
+            bound: stability.as_ref().map(Bound::of),
+            stable: stability.as_ref().map_or("no step bound", verdict),
         })
     }
 
     fn text(&self) -> String {
         let [w, h] = self.points;
-        let Self { structural, shearing, bending, pinned, mass, dt, .. } = self;
+        let Self { structural, shearing, bending, pinned, mass, dt, integrator, stable, .. } = self;
+        let step = match &self.bound {
+            Some(bound) => bound.text(stable),
+            None => ", no bound; the energy is watched while it runs\n".into(),
+        };
         format!(
             "cloth       {w} x {h} = {} points, pinned {pinned}, {mass} kg each\n\
              springs     {} = structural {structural}, shearing {shearing}, bending {bending}\n\
-             step        {dt} s, dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}: {}\n\
-             steps       at least {} per frame at rest, {} at worst\n",
+             integrator  {integrator}\n\
+             step        {dt} s{step}",
             w * h,
             structural + shearing + bending,
+        )
+    }
+}
+
+impl Bound {
+    fn of(stability: &Stability) -> Self {
+        let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+        Self {
+            dt_omega_rest: dt * omega_rest,
+            dt_omega_worst: dt * omega_safe,
+            dt_omega_limit: limit,
+            fewest_steps_rest: stability.fewest_steps(omega_rest),
+            fewest_steps_worst: stability.fewest_steps(omega_safe),
+        }
+    }
+
+    fn text(&self, stable: &str) -> String {
+        format!(
+            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}: {stable}\n\
+             steps       at least {} per frame at rest, {} at worst\n",
             self.dt_omega_rest,
             self.dt_omega_worst,
             self.dt_omega_limit,
-            self.stable,
             self.fewest_steps_rest,
             self.fewest_steps_worst,
         )

@@ -71,7 +71,7 @@ impl Look {
 
     /// What is asked of the picture besides the scene.
     pub(super) fn options(&self, ids: bool) -> Options {
-        Options { springs: self.springs, ids }
+        Options { springs: self.springs, ids, ..Options::default() }
     }
 }
 

@@ -4,16 +4,21 @@
 //! to standard error. The exit code is that of the error's [`Kind`].
 
 mod advance;
+mod animate;
 mod arguments;
 mod bench;
 mod check;
 mod compare;
+mod compare_positions;
 mod counts;
 mod export;
+mod film;
 mod gallery;
 mod guard;
 mod info;
 mod look;
+mod mistakes;
+mod moments;
 mod outputs;
 mod progress;
 mod render;
@@ -21,7 +26,11 @@ mod scene;
 mod signals;
 mod simulate;
 mod stability;
+mod states;
+mod study;
 mod table;
+mod target;
+mod texts;
 mod ui;
 
 use std::process::ExitCode;
@@ -63,7 +72,7 @@ pub fn run() -> ExitCode {
             let ui = arguments.ui();
             exit_code(&ui, execute(&arguments, ui))
         }
-        Err(refusal) => exit_code(&Ui::before_parsing(json), arguments::refuse(&refusal)),
+        Err(refusal) => arguments::refuse(&refusal, &Ui::before_parsing(json)),
     }))
 }
 
@@ -87,11 +96,17 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
     })?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),
+        Command::Animate(args) => animate::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
+        Command::ComparePositions(args) => compare_positions::run(args, &session),
         Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Schema => texts::schema(),
+        Command::Completions(args) => texts::completions(args),
+        Command::Man(args) => texts::man(args),
         Command::Stability(args) => stability::run(args, &session),
         Command::Gallery(args) => gallery::run(args, &session),
     }

@@ -36,6 +36,11 @@ impl SceneArgs {
         Ok(loaded.scene)
     }
 
+    /// The changes as the loader takes them.
+    pub(super) fn overrides(&self) -> Overrides {
+        self.changes.overrides()
+    }
+
     /// The scene changed further by `sets`; its warnings are not told again.
     pub(super) fn load_with(&self, sets: &[&str]) -> Result<Scene> {
         let mut overrides = self.changes.overrides();

@@ -12,7 +12,7 @@ use super::{Session, counts, outputs};
 use crate::cloth::Counters;
 use crate::cloth::energy::Energy;
 use crate::cloth::ledger::Ledger;
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::output::atomic::{self, Content};
 use crate::output::raw;
 use crate::scene::Scene;
@@ -35,9 +35,13 @@ pub(super) struct Args {
     /// Write the last positions: x y z of each point, row by row, f64 little-endian (`-` = standard output)
     #[arg(long, value_name = "FILE")]
     positions: Option<PathBuf>,
-    /// Write a row a frame: time, energies, what each phase put in or took out, extremes (`-` = standard output)
+    /// Write a row a frame: time, energies, what each phase put in or took out, extremes (`-` = standard output);
+    /// a run that blows up or does not come to rest leaves the rows up to its last good frame
     #[arg(long, value_name = "FILE", conflicts_with = "bench")]
     csv: Option<PathBuf>,
+    /// Tell in the summary what each phase put in or took out; a step takes two to four times as long
+    #[arg(long, conflicts_with_all = ["bench", "hash"])]
+    ledger: bool,
     /// Print the number and the state hash of each frame instead of a summary
     #[arg(long)]
     hash: bool,
@@ -59,7 +63,7 @@ struct Summary {
     counters: Counters,
     /// The energies at the end, in J.
     energy: Energy,
-    /// What each phase put in over the whole run, in J, if a table was asked for.
+    /// What each phase put in over the whole run, in J, if a ledger was kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     ledger: Option<Ledger>,
     /// The state hash of each frame from 0, if asked for.
@@ -88,18 +92,17 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         simulation.record_timings();
     }
     let mut table = args.csv.is_some().then(Table::new);
-    if table.is_some() {
+    if table.is_some() || args.ledger {
         simulation.record_ledger()?;
     }
     let mut hashes = Vec::new();
-    let elapsed = advance_until(&mut simulation, &scene, until, session, |now| {
+    let moved = advance_until(&mut simulation, &scene, until, session, |now| {
         table.iter_mut().for_each(|table| table.row(now));
         args.take_hash(now, session, &mut hashes)
-    })?;
+    });
+    let elapsed = args.write_failed(table.as_ref(), moved)?;
     args.write_positions(&simulation)?;
-    if let (Some(path), Some(table)) = (&args.csv, &table) {
-        atomic::write(path, table.text().as_bytes())?;
-    }
+    args.write_table(table.as_ref())?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
     if args.bench {
         session.print_json(&bench(&simulation, springs, elapsed))
@@ -139,6 +142,20 @@ impl Args {
             return Ok(());
         }
         atomic::write_stdout(format!("{} {hash}\n", now.frame()).as_bytes())
+    }
+
+    fn write_table(&self, table: Option<&Table>) -> Result<()> {
+        let pair = self.csv.as_ref().zip(table);
+        pair.map_or(Ok(()), |(path, table)| atomic::write(path, table.text().as_bytes()))
+    }
+
+    /// What came of a run; writes the table of one that blew up or did not come to rest.
+    fn write_failed<T>(&self, table: Option<&Table>, moved: Result<T>) -> Result<T> {
+        if let Err(Error { kind: Kind::Unstable | Kind::Difference, .. }) = moved {
+            // Where the table cannot be written either, the run's own error tells more.
+            let _ = self.write_table(table);
+        }
+        moved
     }
 
     fn write_positions(&self, simulation: &Simulation) -> Result<()> {

@@ -16,12 +16,10 @@ pub(crate) struct Objects {
 }
 
 impl Objects {
-    /// The objects of `scene`, or none if it has none. The planes' normals become unit vectors.
-    pub(crate) fn new(scene: &Scene) -> Option<Self> {
+    /// The objects of `scene`. The planes' normals become unit vectors.
+    pub(crate) fn new(scene: &Scene) -> Self {
         let unit = |plane: &Plane| Plane { normal: plane.normal / len(plane.normal), ..plane.clone() };
-        let planes: Vec<Plane> = scene.planes.iter().map(unit).collect();
-        let spheres = scene.spheres.clone();
-        (!planes.is_empty() || !spheres.is_empty()).then_some(Self { planes, spheres })
+        Self { planes: scene.planes.iter().map(unit).collect(), spheres: scene.spheres.clone() }
     }
 
     /// Resolves the contacts of every unpinned point with the planes. A point's contacts depend

@@ -9,7 +9,7 @@
 use super::grid::Pins;
 use super::{Counters, Points, dot, filled, len};
 use crate::error::Result;
-use crate::scene::{Contact, Plane, Scene, Sphere, Vec3};
+use crate::scene::{Plane, Scene, Sphere, Vec3};
 
 /// Height above a plane, over the size of the coordinates, that its rounding cannot take away.
 const LIFT: f64 = 16.0 * f64::EPSILON;
@@ -22,15 +22,11 @@ pub(crate) struct Outside {
 }
 
 impl Outside {
-    /// The objects of `scene`, whose points start at `x`; none if it has none or lets points be.
+    /// The objects of `scene`, whose points start at `x`.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when the sides do not fit in memory.
-    pub(crate) fn new(scene: &Scene, x: &Points) -> Result<Option<Self>> {
-        let no_objects = scene.planes.is_empty() && scene.spheres.is_empty();
-        if scene.sim.contact == Contact::Report || no_objects {
-            return Ok(None);
-        }
+    pub(crate) fn new(scene: &Scene, x: &Points) -> Result<Self> {
         let sided = |plane: &Plane| {
             let plane = Plane { normal: plane.normal / len(plane.normal), ..plane.clone() };
             let mut above = filled(x.len(), true)?;
@@ -38,7 +34,7 @@ impl Outside {
             Ok((plane, above))
         };
         let planes = scene.planes.iter().map(sided).collect::<Result<_>>()?;
-        Ok(Some(Self { planes, spheres: scene.spheres.clone() }))
+        Ok(Self { planes, spheres: scene.spheres.clone() })
     }
 
     /// Puts every unpinned point outside the planes.
@@ -98,7 +94,7 @@ mod tests {
         [1.0, 1.5, 0.5, 2.0, 2.0].iter().enumerate().for_each(|(p, &y)| x.set(p, Vec3::new(0.0, y, 0.0)));
         x.set(3, Vec3::new(1.0, 2.0, 3.0));
         x.set(4, Vec3::new(1.0, 2.0, 3.25));
-        let outside = Outside::new(&scene, &x).unwrap().unwrap();
+        let outside = Outside::new(&scene, &x).unwrap();
         x.set(0, Vec3::new(0.0, 0.9, 0.0));
         x.set(1, Vec3::new(0.0, -3.0, 0.0));
         x.set(2, Vec3::new(0.0, 1.25, 0.0));

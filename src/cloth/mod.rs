@@ -5,6 +5,11 @@
 //! of the published method, so two programs that follow it agree in every bit. All numbers are
 //! binary64; nothing here uses more than + - × ÷ and the square root.
 //!
+//! Other integrators ([`crate::scene::Integrator`]) take the place of Verlet's scheme, on the same
+//! springs and before the same other phases. For each of them the velocity of a point between two
+//! steps is `(x - last) / dt`, with `last` where it was one step ago before the phases, so
+//! that collisions and the stretch limit change velocities as they do under Verlet's scheme.
+//!
 //! Point (i, j) of a grid of `W` × `H` points has index `j * W + i`. Positions are in metres.
 //!
 //! # What this method does not promise
@@ -31,35 +36,65 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::math::ln;
-use crate::scene::{Cloth, Damping, Sim, Vec3};
+use crate::scene::{Cloth, Damping, Integrator, Sim, Vec3};
 
+pub(crate) mod bdf2;
 mod boxes;
 pub(crate) mod collide;
+mod conjugate_gradients;
 pub(crate) mod contact;
 pub mod energy;
 pub(crate) mod forces;
+mod gather;
 pub mod grid;
 pub(crate) mod guard;
+pub(crate) mod implicit_euler;
 pub mod ledger;
 pub mod measure;
 pub(crate) mod neighbors;
+mod newton;
+mod real;
 pub mod rest;
 pub(crate) mod self_collision;
+pub(crate) mod single;
 pub mod springs;
 pub mod stability;
+mod stiffness;
 pub(crate) mod stretch_limit;
 pub(crate) mod verlet;
+pub(crate) mod xpbd;
 
 /// One vector per point of the cloth, as a structure of arrays of equal length.
 /// Point (i, j) is entry `j * W + i` of each array.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Points {
+pub struct Points<T = f64> {
     /// First components.
-    pub x: Vec<f64>,
+    pub x: Vec<T>,
     /// Second components.
-    pub y: Vec<f64>,
+    pub y: Vec<T>,
     /// Third components.
-    pub z: Vec<f64>,
+    pub z: Vec<T>,
+}
+
+impl<T: Clone + Default> Points<T> {
+    /// `len` zero vectors of numbers of any type.
+    ///
+    /// # Errors
+    /// [`Kind::Scene`] when they do not fit in memory.
+    pub(crate) fn filled(len: usize) -> Result<Self> {
+        let [x, y, z] = [(); 3].map(|()| filled(len, T::default()));
+        Ok(Self { x: x?, y: y?, z: z? })
+    }
+
+    /// The three components.
+    pub(crate) fn components(&self) -> [&[T]; 3] {
+        [&self.x, &self.y, &self.z]
+    }
+
+    /// The three components, to be changed.
+    pub(crate) fn components_mut(&mut self) -> [&mut [T]; 3] {
+        [&mut self.x, &mut self.y, &mut self.z]
+    }
 }
 
 impl Points {
@@ -68,7 +103,7 @@ impl Points {
     /// # Errors
     /// [`Kind::Scene`] when they do not fit in memory.
     pub fn zeros(len: usize) -> Result<Self> {
-        Ok(Self { x: filled(len, 0.0)?, y: filled(len, 0.0)?, z: filled(len, 0.0)? })
+        Self::filled(len)
     }
 
     /// Takes the vectors of `other`, which has as many, without new memory.
@@ -109,10 +144,10 @@ pub struct Constants {
     /// Step, in seconds: `1 / fps / T`.
     pub dt: f64,
     /// What a force of 1 N moves a point in one step, in metres: `dt² / mass`, and with damping
-    /// per second at the rate c that over `1 + c dt / 2`.
+    /// per second at the rate c that over `1 + c dt / 2` for Verlet, over `1 + c dt` for others.
     pub a2: f64,
     /// Part of a point's displacement that a step keeps: `1 - damping / 100`, and with damping per
-    /// second `(1 - c dt / 2) / (1 + c dt / 2)`.
+    /// second `(1 - c dt / 2) / (1 + c dt / 2)` for Verlet, `1 / (1 + c dt)` for others.
     pub keep: f64,
     /// Weight of a point, in N.
     pub weight: Vec3,
@@ -130,11 +165,17 @@ impl Constants {
         let weight = sim.gravity * mass;
         let report =
             Self { mass, dt, a2: dt * dt / mass, keep: 1.0 - cloth.damping / 100.0, weight, steps_per_frame };
-        match sim.damping {
-            Damping::PerStep => report,
-            Damping::PerSecond => {
+        match (sim.damping, sim.integrator) {
+            (Damping::PerStep, _) => report,
+            // The drag is taken at the middle of the step, as the velocity of Verlet's scheme is.
+            (Damping::PerSecond, Integrator::Verlet) => {
                 let half = 0.5 * dt * damping_rate(cloth.damping);
                 Self { a2: report.a2 / (1.0 + half), keep: (1.0 - half) / (1.0 + half), ..report }
+            }
+            // The drag is taken at the end of the step, as all forces of these are.
+            (Damping::PerSecond, _) => {
+                let whole = dt * damping_rate(cloth.damping);
+                Self { a2: report.a2 / (1.0 + whole), keep: 1.0 / (1.0 + whole), ..report }
             }
         }
     }
@@ -154,9 +195,9 @@ pub fn damping_rate(percent: f64) -> f64 {
 pub struct Counters {
     /// Steps made.
     pub steps: u64,
-    /// Springs whose force was computed.
+    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed.
     pub springs_evaluated: u64,
-    /// Points that Verlet's scheme moved on.
+    /// Points that the integrator moved on.
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.
     pub boxes_searched: u64,

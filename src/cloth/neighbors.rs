@@ -15,7 +15,7 @@ use super::boxes::Boxes;
 use super::grid::Pins;
 use super::{Counters, Points, dot, filled};
 use crate::error::Result;
-use crate::scene::{Cloth, SelfCollision, Sim, Vec3};
+use crate::scene::{Cloth, Sim, Vec3};
 
 /// Just above 1: covers the rounding of a squared length and of a box number.
 const MARGIN: f64 = 1.0 + 1e-6;
@@ -43,19 +43,15 @@ pub(crate) struct Neighbors {
 }
 
 impl Neighbors {
-    /// Self-collision of `cloth`, whose points start at `x`; none when another kind is asked for
-    /// or the cloth has no thickness.
+    /// Self-collision of `cloth`, whose points start at `x`.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(cloth: &Cloth, sim: &Sim, x: &Points) -> Result<Option<Self>> {
+    pub(crate) fn new(cloth: &Cloth, sim: &Sim, x: &Points) -> Result<Self> {
         let distance = 2.0 * cloth.thickness;
-        if sim.self_collision != SelfCollision::Neighbors || distance == 0.0 {
-            return Ok(None);
-        }
         let steps_per_frame = f64::from(sim.steps_per_frame);
         let size = distance * (1.0 + 2.0 / steps_per_frame) * MARGIN;
-        Ok(Some(Self {
+        Ok(Self {
             distance,
             reach: distance * distance * MARGIN,
             steps_per_frame,
@@ -63,7 +59,7 @@ impl Neighbors {
             around: filled(x.len(), Around::default())?,
             box_of: filled(x.len(), 0)?,
             close: filled(x.len(), 0)?,
-        }))
+        })
     }
 
     /// Moves apart all close points; pinned points stay.
@@ -192,7 +188,7 @@ mod tests {
                 let sim = Sim { steps_per_frame: steps, ..scene.sim.clone() };
                 let mut x = any_cloth(300, seed, spread);
                 let mut expected = x.clone();
-                let mut neighbors = Neighbors::new(&cloth, &sim, &x).unwrap().unwrap();
+                let mut neighbors = Neighbors::new(&cloth, &sim, &x).unwrap();
                 for round in 0..20 {
                     let mut moved = x.clone();
                     neighbors.boxes.update(&moved);

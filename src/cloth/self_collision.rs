@@ -9,8 +9,9 @@ use std::ops::Range;
 use super::boxes::Boxes;
 use super::grid::{Grid, Pins};
 use super::{Counters, Points};
+use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
-use crate::scene::{Cloth, SelfCollision as Mode, Sim, Vec3};
+use crate::scene::{Cloth, Sim, Vec3};
 
 /// Just above 1: covers the rounding of a squared length, so that no close pair is overlooked.
 const MARGIN: f64 = 1.0 + 1e-12;
@@ -31,42 +32,31 @@ pub(crate) struct SelfCollision {
 }
 
 impl SelfCollision {
-    /// Self-collision of `cloth`, whose points start at `x`; none when another kind is
-    /// asked for or the cloth has no thickness.
+    /// Self-collision of `cloth`, whose points start at `x`.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Option<Self>> {
+    pub(crate) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Self> {
         let distance = 2.0 * cloth.thickness;
-        if sim.self_collision != Mode::SameBox || distance == 0.0 {
-            return Ok(None);
-        }
         let bx = 3.0 * cloth.width / grid.width as f64;
         let by = 3.0 * cloth.height / grid.height as f64;
-        Ok(Some(Self {
+        Ok(Self {
             distance,
             reach: distance * distance * MARGIN,
             steps_per_frame: f64::from(sim.steps_per_frame),
             boxes: Boxes::new([bx, by, bx.max(by)], x)?,
             positions: Points::zeros(grid.len())?,
-        }))
+        })
     }
 
     /// Moves apart the close points of every box; pinned points stay.
     pub(crate) fn apply(&mut self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
         self.boxes.update(x);
-        for index in 0..self.boxes.count() {
-            let size = self.boxes.members(index).len();
-            self.gather(index, x);
-            counters.boxes_searched += 1;
-            counters.pairs_tested += (size * (size - 1) / 2) as u64;
-            if self.any_close(size) {
-                counters.self_collision_moves += self.move_apart(index, x, pins);
-            }
-        }
+        dispatch(EachBox { collision: self, x, pins, counters });
     }
 
     /// Copies the positions of the members of box `index`.
+    #[inline(always)]
     fn gather(&mut self, index: usize, x: &Points) {
         for (to, &p) in self.boxes.members(index).iter().enumerate() {
             self.positions.x[to] = x.x[p];
@@ -76,14 +66,21 @@ impl SelfCollision {
     }
 
     /// Whether two of the first `size` gathered positions may be too close.
+    #[inline(always)]
     fn any_close(&self, size: usize) -> bool {
-        (0..size).any(|at| self.close_to_any(at, at + 1..size))
+        for at in 0..size {
+            if self.close_to_any(at, at + 1..size) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether the gathered position `at` may be too close to one of `others`.
     ///
     /// A pair that is too close never exceeds `reach`: its squared length is below (2 ·
     /// thickness)² but for the rounding of two squares and a root, far less than [`MARGIN`].
+    #[inline(always)]
     fn close_to_any(&self, at: usize, others: Range<usize>) -> bool {
         let mut any = false;
         self.squares_from(at, others).for_each(|square| any |= square <= self.reach);
@@ -91,6 +88,7 @@ impl SelfCollision {
     }
 
     /// The squared distances from the gathered position `at` to `others`, in m².
+    #[inline(always)]
     fn squares_from(&self, at: usize, others: Range<usize>) -> impl Iterator<Item = f64> {
         let Points { x, y, z } = &self.positions;
         let (px, py, pz) = (x[at], y[at], z[at]);
@@ -101,6 +99,7 @@ impl SelfCollision {
     }
 
     /// Moves the unpinned members of box `index` one after the other; how many moved.
+    #[inline(always)]
     fn move_apart(&mut self, index: usize, x: &mut Points, pins: &Pins) -> u64 {
         let members = self.boxes.members(index);
         let mut moved = 0;
@@ -115,6 +114,7 @@ impl SelfCollision {
     }
 
     /// Where the gathered point `at` belongs among the first `size`; nothing when it may stay.
+    #[inline(always)]
     fn corrected(&self, at: usize, size: usize) -> Option<Vec3> {
         if !self.close_to_any(at, 0..at) && !self.close_to_any(at, at + 1..size) {
             return None;
@@ -131,5 +131,29 @@ impl SelfCollision {
             }
         }
         (count > 0.0).then(|| position + sum * (1.0 / count / self.steps_per_frame))
+    }
+}
+
+/// The phase, box by box.
+struct EachBox<'a> {
+    collision: &'a mut SelfCollision,
+    x: &'a mut Points,
+    pins: &'a Pins,
+    counters: &'a mut Counters,
+}
+
+impl Work for EachBox<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { collision, x, pins, counters } = self;
+        for index in 0..collision.boxes.count() {
+            let size = collision.boxes.members(index).len();
+            collision.gather(index, x);
+            counters.boxes_searched += 1;
+            counters.pairs_tested += (size * (size - 1) / 2) as u64;
+            if collision.any_close(size) {
+                counters.self_collision_moves += collision.move_apart(index, x, pins);
+            }
+        }
     }
 }

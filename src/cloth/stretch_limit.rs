@@ -11,8 +11,9 @@ use std::ops::Range;
 use super::grid::{Grid, Pins};
 use super::springs::{Family, Springs};
 use super::{Counters, Points, dot, filled};
+use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
-use crate::scene::{Sim, Vec3};
+use crate::scene::Vec3;
 
 /// Points in a block.
 const BLOCK: usize = 8;
@@ -32,12 +33,11 @@ pub(crate) struct StretchLimit {
 }
 
 impl StretchLimit {
-    /// The limit that `sim` sets to `springs`, or none.
+    /// The limit of `springs` to a strain of `limit`, in so many passes a step.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(sim: &Sim, springs: &Springs) -> Result<Option<Self>> {
-        let Some(limit) = sim.stretch_limit else { return Ok(None) };
+    pub(crate) fn new(limit: f64, passes: u32, springs: &Springs) -> Result<Self> {
         let factor = 1.0 + limit;
         let mut reach = Vec::with_capacity(springs.families.len());
         for family in &springs.families {
@@ -47,37 +47,29 @@ impl StretchLimit {
             }
             reach.push(squares);
         }
-        Ok(Some(Self { factor, passes: sim.stretch_passes, reach }))
+        Ok(Self { factor, passes, reach })
     }
 
     /// Shortens the springs that are too long, in creation order.
     pub(crate) fn apply(&self, x: &mut Points, springs: &Springs, pins: &Pins, counters: &mut Counters) {
-        let Grid { width, height } = springs.grid;
         for _ in 0..self.passes {
-            for j in 0..height {
-                if !self.any_long(x, springs, j, &(0..width)) {
-                    continue;
-                }
-                for start in (0..width).step_by(BLOCK) {
-                    let columns = start..(start + BLOCK).min(width);
-                    if self.any_long(x, springs, j, &columns) {
-                        self.shorten(x, springs, pins, j, columns, counters);
-                    }
-                }
-            }
+            dispatch(Pass { limit: self, x, springs, pins, counters });
             counters.springs_checked += springs.len() as u64;
         }
     }
 
     /// Whether a spring made by the points of row `j` and `columns` may be too long.
+    #[inline(always)]
     fn any_long(&self, x: &Points, springs: &Springs, j: usize, columns: &Range<usize>) -> bool {
-        springs.families.iter().zip(&self.reach).filter(|(family, _)| family.rows.contains(&j)).any(
-            |(family, reach)| {
-                let start = columns.start.max(family.columns.start);
-                let n = columns.end.min(family.columns.end).saturating_sub(start);
-                any_reaches(x, j * springs.grid.width + start, family.offset, n, reach)
-            },
-        )
+        for (family, reach) in springs.families.iter().zip(&self.reach) {
+            let start = columns.start.max(family.columns.start);
+            let n = columns.end.min(family.columns.end).saturating_sub(start);
+            let row = j * springs.grid.width;
+            if family.rows.contains(&j) && any_reaches(x, row + start, family.offset, n, reach) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Shortens the springs made by the points of row `j` and `columns`.
@@ -135,12 +127,41 @@ impl StretchLimit {
     }
 }
 
+/// One pass over all springs.
+struct Pass<'a> {
+    limit: &'a StretchLimit,
+    x: &'a mut Points,
+    springs: &'a Springs,
+    pins: &'a Pins,
+    counters: &'a mut Counters,
+}
+
+impl Work for Pass<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { limit, x, springs, pins, counters } = self;
+        let Grid { width, height } = springs.grid;
+        for j in 0..height {
+            if !limit.any_long(x, springs, j, &(0..width)) {
+                continue;
+            }
+            for start in (0..width).step_by(BLOCK) {
+                let columns = start..(start + BLOCK).min(width);
+                if limit.any_long(x, springs, j, &columns) {
+                    limit.shorten(x, springs, pins, j, columns, counters);
+                }
+            }
+        }
+    }
+}
+
 /// Whether one of the `n` springs from the points at `a` to those `offset` before them reaches
 /// its squared length in `reach`.
 ///
 /// A spring over its limit does: `sqrt(d) > max` after rounding makes d at least max² but for the
 /// rounding of two squares and a root, which is far below [`MARGIN`]; the comparison takes equal
 /// numbers in, for lengths whose squares are too small for a relative margin.
+#[inline(always)]
 fn any_reaches(x: &Points, a: usize, offset: usize, n: usize, reach: &[f64]) -> bool {
     if n == 0 {
         return false;

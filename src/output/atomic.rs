@@ -22,7 +22,7 @@ pub enum Content {
 }
 
 /// Where bytes go once links are followed.
-enum Target {
+pub(super) enum Target {
     /// Standard output.
     Stdout,
     /// A device or pipe, which cannot be replaced.
@@ -79,7 +79,7 @@ pub fn check_writable(path: &Path, content: Content) -> Result<()> {
 }
 
 /// Follows links and tells regular files from devices. A link to nothing names the file to make.
-fn target(path: &Path) -> Result<Target> {
+pub(super) fn target(path: &Path) -> Result<Target> {
     if is_stdout(path) {
         return Ok(Target::Stdout);
     }
@@ -124,7 +124,7 @@ fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 /// An empty temporary file next to `file`, with the permissions that `file` has or would get.
-fn temporary_beside(file: &Path) -> io::Result<tempfile::NamedTempFile> {
+pub(super) fn temporary_beside(file: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".drape-");
     #[cfg(unix)]
@@ -142,7 +142,7 @@ fn is_folder(path: &Path) -> Error {
 }
 
 /// The error of a failed write. A reader that has gone away counts as the signal for that.
-fn failed(path: &Path, cause: &io::Error) -> Error {
+pub(super) fn failed(path: &Path, cause: &io::Error) -> Error {
     if cause.kind() == io::ErrorKind::BrokenPipe {
         return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
     }

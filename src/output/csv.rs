@@ -1,7 +1,5 @@
 //! Tables of numbers as text: comma-separated values (RFC 4180, lines end in a line feed alone).
 
-use std::fmt::Write;
-
 /// A table under construction.
 #[derive(Clone, Debug)]
 pub struct Csv {
@@ -17,16 +15,15 @@ impl Csv {
     /// Adds a row, each number in the shortest form that reads back as the same one; one that is
     /// infinite or no number becomes an empty field.
     pub fn row(&mut self, numbers: impl IntoIterator<Item = f64>) {
-        for (column, number) in numbers.into_iter().enumerate() {
-            if column > 0 {
-                self.text.push(',');
-            }
-            if number.is_finite() {
-                // Writing to a string cannot fail.
-                let _ = write!(self.text, "{number:?}");
-            }
-        }
-        self.text.push('\n');
+        self.labelled_row(&[], numbers);
+    }
+
+    /// Adds a row of `labels`, each between quotes, and numbers as [`Csv::row`] writes them.
+    pub fn labelled_row(&mut self, labels: &[&str], numbers: impl IntoIterator<Item = f64>) {
+        let labels = labels.iter().map(|label| format!("\"{}\"", label.replace('"', "\"\"")));
+        let number = |number: f64| if number.is_finite() { format!("{number:?}") } else { String::new() };
+        let fields: Vec<String> = labels.chain(numbers.into_iter().map(number)).collect();
+        self.text += &(fields.join(",") + "\n");
     }
 
     /// The whole table.
@@ -44,6 +41,8 @@ mod tests {
         let mut csv = Csv::new(&["a", "b", "c"]);
         csv.row([0.1, -1e-300, f64::MAX]);
         csv.row([1.0, 0.0, f64::INFINITY]);
-        assert_eq!(csv.text(), "a,b,c\n0.1,-1e-300,1.7976931348623157e308\n1.0,0.0,\n");
+        csv.labelled_row(&["x, \"y\""], [f64::NAN, 2.0]);
+        let rows = "a,b,c\n0.1,-1e-300,1.7976931348623157e308\n1.0,0.0,\n\"x, \"\"y\"\"\",,2.0\n";
+        assert_eq!(csv.text(), rows);
     }
 }

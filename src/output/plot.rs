@@ -14,7 +14,7 @@ use super::page::escape;
 const WIDTH: f64 = 420.0;
 const TEXT: f64 = 13.0;
 /// The frame within the view box: left, right, top, bottom.
-const FRAME: [f64; 4] = [62.0, 408.0, 28.0, 290.0];
+const FRAME: [f64; 4] = [62.0, 396.0, 28.0, 290.0];
 /// Top of the legend and height of its lines; two entries stand side by side.
 const LEGEND: f64 = 352.0;
 const LEGEND_LINE: f64 = 20.0;
@@ -32,6 +32,8 @@ pub enum Marker {
     Diamond,
     /// Two crossing strokes.
     Cross,
+    /// Nothing.
+    None,
 }
 
 /// Colour, marker and stroke of a series.
@@ -60,7 +62,7 @@ impl Style {
 
     /// A thin dashed line without markers of its own.
     pub const GUIDE: Self =
-        Self { color: "--soft", marker: Marker::Cross, hollow: true, dashed: true, stroke: 1.0 };
+        Self { color: "--soft", marker: Marker::None, hollow: true, dashed: true, stroke: 1.0 };
 }
 
 /// A plot in the making.
@@ -135,10 +137,7 @@ impl Plot {
                 "<path d=\"M{x} {y}h24\" style=\"stroke:var({color});stroke-width:{stroke}{dash}\"/>"
             );
         }
-        // A cross has no outline: a hollow one stands for none.
-        if !(style.hollow && style.marker == Marker::Cross) {
-            self.legend += &shape([x + 12.0, y], style);
-        }
+        self.legend += &shape([x + 12.0, y], style);
         self.legend += &text_at([x + 30.0, y + 4.5], "start", "--ink", text);
         self.entries += 1;
     }
@@ -201,6 +200,7 @@ fn shape([x, y]: [f64; 2], style: Style) -> String {
         Marker::Triangle => "m0 -5l4.8 8.4h-9.6z",
         Marker::Diamond => "m0 -5l5 5l-5 5l-5 -5z",
         Marker::Cross => "m-4 -4l8 8m0 -8l-8 8",
+        Marker::None => return String::new(),
     };
     let fill = if style.hollow { "--paper" } else { style.color };
     let color = style.color;
@@ -236,11 +236,11 @@ mod tests {
         plot.entry(Style::of_series(1), "one");
         let svg = plot.finish("p0");
         for part in
-            ["a &lt; b", "time (s)", "error (m)", "points=\"62.00,290.00 408.00,159.00\"", "half &quot;way"]
+            ["a &lt; b", "time (s)", "error (m)", "points=\"62.00,290.00 396.00,159.00\"", "half &quot;way"]
         {
             assert!(svg.contains(part), "{part} in {svg}");
         }
-        assert!(svg.contains("y=\"224.50\" width=\"346.00\" height=\"65.50\""), "{svg}");
+        assert!(svg.contains("y=\"224.50\" width=\"334.00\" height=\"65.50\""), "{svg}");
         assert!(!svg.contains("nowhere") && !svg.contains("NaN") && !svg.contains("rgb"));
         assert_eq!(svg.matches("url(#p0)").count(), 2);
         assert_eq!(svg.matches("<svg").count() + svg.matches("</svg>").count(), 2);

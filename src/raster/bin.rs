@@ -1,269 +1,116 @@
-//! Primitive assembly and binning: clips and sets up primitives in chunks of fixed size, each on
-//! one thread, and lists for every tile the primitives that may touch it, in submission order.
+//! Binning: which primitives of a chunk may touch a tile, in submission order.
 
-use super::{
-    clip::{ClipVertex, clip_polygon, clip_segment, outside},
-    framebuffer::TILE,
-    setup::{Bounds, Dropped, Line, Triangle, Viewport},
-    vertex::VertexBuffer,
-};
+use super::{framebuffer::TILE, setup::Bounds};
 
-/// Primitives of a mesh per chunk. Fixed, so that the work is cut alike for any number of threads.
-pub(super) const CHUNK: usize = 2048;
-
-/// Primitives that a chunk can hold after clipping: a triangle becomes at most 7.
-const CHUNK_BITS: u32 = 14;
-
-/// Largest coordinate in clip space. With larger ones, clipping in f64 loses the digits that place
-/// what is left in the window.
-const CLIP_LIMIT: f32 = 4_294_967_296.0;
-
-/// The place of a primitive among all chunks, plus one: 0 is nothing.
-pub(super) type Handle = u32;
-
-/// A chunk of a draw call's primitives, ready for the tiles.
+/// The primitives of a chunk by tile. Only the rectangle of tiles that the chunk touches is kept.
 #[derive(Debug, Default)]
-pub(super) struct Chunk {
-    /// Index of the draw call.
-    pub(super) call: usize,
-    pub(super) triangles: Vec<Triangle>,
-    pub(super) lines: Vec<Line>,
-    /// Varyings of the vertices that clipping made.
-    clipped_varyings: Vec<f32>,
-    bounds: Vec<Bounds>,
+pub(super) struct Bins {
+    /// First column and row of tiles that are touched.
+    first: [usize; 2],
+    /// Columns and rows of tiles from there.
+    size: [usize; 2],
+    /// Per tile, row by row, where its primitives start in `entries`; one more at the end.
     offsets: Vec<u32>,
     entries: Vec<u32>,
-    pub(super) counts: Counts,
 }
 
-/// What became of a chunk's primitives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Counts {
-    pub(super) outside: u64,
-    pub(super) clipped: u64,
-    pub(super) non_finite: u64,
-    pub(super) degenerate: u64,
-    pub(super) no_sample: u64,
-    pub(super) drawn: u64,
-}
-
-/// The handle of primitive `index` of chunk `chunk`.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "2^18 chunks of 2048 are more than an index buffer holds"
-)]
-pub(super) fn handle(chunk: usize, index: u32) -> Handle {
-    ((chunk as u32) << CHUNK_BITS) + index + 1
-}
-
-/// The chunk and index of a handle other than 0.
-pub(super) fn place(handle: Handle) -> (usize, usize) {
-    let place = handle - 1;
-    ((place >> CHUNK_BITS) as usize, (place & ((1 << CHUNK_BITS) - 1)) as usize)
-}
-
-impl Chunk {
-    /// The triangles `first..` of a mesh.
-    pub(super) fn of_triangles(
-        (call, first): (usize, usize),
-        triangles: &[[u32; 3]],
-        vertices: &VertexBuffer,
-        viewport: &Viewport,
-    ) -> Self {
-        let mut chunk = Self { call, ..Self::default() };
-        for (i, &corners) in triangles.iter().enumerate() {
-            chunk.add_triangle(corners, number(first + i), vertices, viewport);
+impl Bins {
+    /// Sorts primitives with these bounds into the tiles that they touch, keeping their order.
+    pub(super) fn of(bounds: impl ExactSizeIterator<Item = Bounds> + Clone) -> Self {
+        let mut bins = Self::around(bounds.clone());
+        for bounds in bounds.clone() {
+            bins.touched(bounds, |bins, tile| bins.offsets[tile + 2] += 1);
         }
-        chunk
+        for tile in 2..bins.offsets.len() {
+            bins.offsets[tile] += bins.offsets[tile - 1];
+        }
+        bins.entries = vec![0; bins.offsets.last().map_or(0, |&last| last as usize)];
+        for (i, bounds) in (0..).zip(bounds) {
+            // Entry t + 1 runs from the start of tile t up to its end, where tile t + 1 starts.
+            bins.touched(bounds, |bins, tile| {
+                let next = &mut bins.offsets[tile + 1];
+                bins.entries[*next as usize] = i;
+                *next += 1;
+            });
+        }
+        bins
     }
 
-    /// The lines `first..` of a mesh.
-    pub(super) fn of_lines(
-        (call, first): (usize, usize),
-        lines: &[[u32; 2]],
-        vertices: &VertexBuffer,
-        viewport: &Viewport,
-    ) -> Self {
-        let mut chunk = Self { call, ..Self::default() };
-        for (i, &ends) in lines.iter().enumerate() {
-            chunk.add_line(ends, number(first + i), vertices, viewport);
+    /// No primitives yet, in the rectangle of tiles that these bounds touch.
+    fn around(bounds: impl Iterator<Item = Bounds>) -> Self {
+        let (mut first, mut last) = ([u16::MAX; 2], [0; 2]);
+        let mut any = false;
+        for Bounds { x, y } in bounds {
+            any = true;
+            first = [first[0].min(x[0]), first[1].min(y[0])];
+            last = [last[0].max(x[1]), last[1].max(y[1])];
         }
-        chunk
+        if !any {
+            return Self::default();
+        }
+        let [first, last] = [first, last].map(tile_of);
+        let size = [last[0] + 1 - first[0], last[1] + 1 - first[1]];
+        Self { first, size, offsets: vec![0; size[0] * size[1] + 2], entries: Vec::new() }
     }
 
-    fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
-        let positions = corners.map(|corner| vertices.positions[corner as usize]);
-        let codes = positions.map(outside);
-        if !in_range(&positions) {
-            self.counts.non_finite += 1;
-        } else if codes[0] & codes[1] & codes[2] != 0 {
-            self.counts.outside += 1;
-        } else if codes == [0; 3] {
-            self.set_up_triangle(positions, corners, source, viewport);
-        } else {
-            self.clip_triangle(corners, codes[0] | codes[1] | codes[2], source, vertices, viewport);
-        }
-    }
-
-    /// Clips a triangle and sets up the fan that is left.
-    fn clip_triangle(
-        &mut self,
-        corners: [u32; 3],
-        planes: u8,
-        source: u32,
-        vertices: &VertexBuffer,
-        viewport: &Viewport,
-    ) {
-        let mut polygon: Vec<ClipVertex> =
-            (0..3).map(|i| unclipped(vertices.positions[corners[i] as usize], i)).collect();
-        clip_polygon(&mut polygon, planes);
-        if polygon.len() < 3 {
-            self.counts.outside += 1;
-            return;
-        }
-        let made: Vec<_> =
-            polygon.iter().map(|v| (round(v.position), self.add_vertex(v, corners, vertices))).collect();
-        let [first, rest @ ..] = &made[..] else { return };
-        self.counts.clipped += 1;
-        for pair in rest.windows(2) {
-            let fan = [*first, pair[0], pair[1]];
-            self.set_up_triangle(fan.map(|v| v.0), fan.map(|v| v.1), source, viewport);
-        }
-    }
-
-    /// The number of a clipped polygon's vertex: a corner keeps its own, others are new.
-    fn add_vertex(&mut self, vertex: &ClipVertex, corners: [u32; 3], vertices: &VertexBuffer) -> u32 {
-        if let Some(corner) = (0..3).find(|&i| vertex.weights[i] == 1.0) {
-            return corners[corner];
-        }
-        let stride = vertices.stride;
-        let index = vertices.positions.len() + self.clipped_varyings.len().checked_div(stride).unwrap_or(0);
-        for k in 0..stride {
-            let at = |i: usize| f64::from(vertices.varyings[corners[i] as usize * stride + k]);
-            let [w0, w1, w2] = vertex.weights;
-            #[expect(clippy::cast_possible_truncation, reason = "varyings are f32")]
-            self.clipped_varyings.push((w0 * at(0) + w1 * at(1) + w2 * at(2)) as f32);
-        }
-        number(index)
-    }
-
-    fn set_up_triangle(
-        &mut self,
-        positions: [[f32; 4]; 3],
-        vertices: [u32; 3],
-        source: u32,
-        viewport: &Viewport,
-    ) {
-        match viewport.triangle(positions, vertices, source) {
-            Ok((triangle, bounds)) => {
-                self.triangles.push(triangle);
-                self.bounds.push(bounds);
-                self.counts.drawn += 1;
-            }
-            Err(dropped) => self.drop(dropped),
-        }
-    }
-
-    fn add_line(&mut self, ends: [u32; 2], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
-        let positions = ends.map(|end| vertices.positions[end as usize]);
-        let codes = positions.map(outside);
-        let mut clipped = positions;
-        if !in_range(&positions) {
-            return self.drop(Dropped::NonFinite);
-        }
-        if codes != [0; 2] {
-            let ends = [unclipped(positions[0], 0), unclipped(positions[1], 1)];
-            let Some(ends) = clip_segment(ends, codes[0] | codes[1]) else {
-                self.counts.outside += 1;
-                return;
-            };
-            self.counts.clipped += 1;
-            clipped = ends.map(|end| round(end.position));
-        }
-        match viewport.line(clipped, source) {
-            Ok((line, bounds)) => {
-                self.lines.push(line);
-                self.bounds.push(bounds);
-                self.counts.drawn += 1;
-            }
-            Err(dropped) => self.drop(dropped),
-        }
-    }
-
-    fn drop(&mut self, dropped: Dropped) {
-        match dropped {
-            Dropped::NonFinite => self.counts.non_finite += 1,
-            Dropped::Degenerate => self.counts.degenerate += 1,
-            Dropped::NoSample => self.counts.no_sample += 1,
-        }
-    }
-
-    /// Sorts the primitives into the tiles that their bounds touch, keeping their order.
-    pub(super) fn sort_into_tiles(&mut self, columns: usize, tiles: usize) {
-        let touched = |b: &Bounds| {
-            let (x, y) = (b.x.map(|x| x / TILE), b.y.map(|y| y / TILE));
-            (y[0]..=y[1]).flat_map(move |row| (x[0]..=x[1]).map(move |column| row * columns + column))
-        };
-        self.offsets = vec![0; tiles + 1];
-        for tile in self.bounds.iter().flat_map(touched) {
-            self.offsets[tile + 1] += 1;
-        }
-        for tile in 0..tiles {
-            self.offsets[tile + 1] += self.offsets[tile];
-        }
-        let mut next = self.offsets.clone();
-        self.entries = vec![0; self.offsets[tiles] as usize];
-        for (i, bounds) in self.bounds.iter().enumerate() {
-            for tile in touched(bounds) {
-                self.entries[next[tile] as usize] = number(i);
-                next[tile] += 1;
+    /// Calls `visit` with the number of every tile that bounds touch.
+    fn touched(&mut self, Bounds { x, y }: Bounds, mut visit: impl FnMut(&mut Self, usize)) {
+        let (first, last) = (tile_of([x[0], y[0]]), tile_of([x[1], y[1]]));
+        for row in first[1]..=last[1] {
+            for column in first[0]..=last[0] {
+                visit(self, (row - self.first[1]) * self.size[0] + column - self.first[0]);
             }
         }
     }
 
-    /// The primitives that may touch a tile, in submission order.
-    pub(super) fn in_tile(&self, tile: usize) -> &[u32] {
+    /// The primitives that may touch the tile in this column and row of tiles.
+    pub(super) fn in_tile(&self, [column, row]: [usize; 2]) -> &[u32] {
+        let (x, y) = (column.wrapping_sub(self.first[0]), row.wrapping_sub(self.first[1]));
+        if x >= self.size[0] || y >= self.size[1] {
+            return &[];
+        }
+        let tile = y * self.size[0] + x;
         &self.entries[self.offsets[tile] as usize..self.offsets[tile + 1] as usize]
     }
+}
 
-    /// The bounds of primitive `index`.
-    pub(super) fn bounds(&self, index: u32) -> Bounds {
-        self.bounds[index as usize]
+/// Column and row of the tile that a pixel lies in.
+fn tile_of(pixel: [u16; 2]) -> [usize; 2] {
+    [usize::from(pixel[0]) / TILE, usize::from(pixel[1]) / TILE]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::splitmix64;
+
+    /// Bounds somewhere in a picture of 1000 × 1000 pixels, from a pixel to half the picture.
+    fn any_bounds(i: u64) -> Bounds {
+        let range = |k: u64| {
+            let bits = splitmix64(2 * i + k);
+            let first = bits % 1000;
+            let last = (first + (bits >> 32) % (1 << (bits >> 16 & 7)) * 4).min(999);
+            [first, last].map(|p| u16::try_from(p).unwrap())
+        };
+        Bounds { x: range(0), y: range(1) }
     }
 
-    /// The varyings of a vertex: the mesh's own come first, then those that clipping made.
-    #[inline(always)]
-    pub(super) fn varyings_of<'a, const N: usize>(
-        &'a self,
-        vertex: u32,
-        vertices: &'a VertexBuffer,
-    ) -> &'a [f32; N] {
-        let (vertex, own) = (vertex as usize, vertices.positions.len());
-        let (buffer, index) =
-            if vertex < own { (&vertices.varyings, vertex) } else { (&self.clipped_varyings, vertex - own) };
-        buffer[index * N..].first_chunk().unwrap_or(&[0.0; N])
+    #[test]
+    fn a_tile_lists_what_touches_it_in_order() {
+        for count in [0, 1, 2, 50, 500] {
+            let all: Vec<Bounds> = (0..count).map(|i| any_bounds(1000 * count + i)).collect();
+            let bins = Bins::of(all.iter().copied());
+            for (column, row) in (0..17).flat_map(|row| (0..17).map(move |column| (column, row))) {
+                let meets = |[first, last]: [u16; 2], tile: usize| {
+                    usize::from(first) < (tile + 1) * TILE && usize::from(last) >= tile * TILE
+                };
+                let touching: Vec<u32> = (0..)
+                    .zip(&all)
+                    .filter(|(_, b)| meets(b.x, column) && meets(b.y, row))
+                    .map(|(i, _)| i)
+                    .collect();
+                assert_eq!(bins.in_tile([column, row]), touching, "{count}: {column}, {row}");
+            }
+        }
     }
-}
-
-/// Corner `i` of a primitive, before clipping.
-fn unclipped(position: [f32; 4], i: usize) -> ClipVertex {
-    let mut weights = [0.0; 3];
-    weights[i] = 1.0;
-    ClipVertex { position: position.map(f64::from), weights }
-}
-
-/// Whether no coordinate is NaN, infinite or far too large.
-fn in_range(positions: &[[f32; 4]]) -> bool {
-    positions.as_flattened().iter().all(|c| c.abs() <= CLIP_LIMIT)
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "clip space is f32")]
-fn round(position: [f64; 4]) -> [f32; 4] {
-    position.map(|c| c as f32)
-}
-
-/// Numbers of vertices and primitives fit in the index buffer's u32.
-#[expect(clippy::cast_possible_truncation, reason = "as the line above says")]
-fn number(i: usize) -> u32 {
-    i as u32
 }

@@ -15,14 +15,25 @@ pub(super) struct ClipVertex {
 }
 
 /// Signed distance to each plane, positive inside: near, far, left, right, bottom, top.
+#[inline(always)]
 fn distances([x, y, z, w]: [f64; 4]) -> [f64; 6] {
     [w + z, w - z, w + x, w - x, w + y, w - y]
 }
 
-/// Which of the six planes a position lies outside of, one bit a plane.
+/// Largest coordinate in clip space. With larger ones, clipping in f64 loses the digits that place
+/// what is left in the window.
+const LIMIT: f32 = 4_294_967_296.0;
+
+/// The bit of [`outside`] for a coordinate that is NaN, infinite or far too large.
+pub(super) const FAR: u8 = 1 << 6;
+
+/// Which of the six planes a position lies outside of, one bit a plane; and [`FAR`].
+#[inline(always)]
 pub(super) fn outside(position: [f32; 4]) -> u8 {
-    let distances = distances(position.map(f64::from));
-    (0..6).fold(0, |bits, plane| bits | (u8::from(distances[plane] < 0.0) << plane))
+    let [x, y, z, w] = position;
+    let distances = distances([x.into(), y.into(), z.into(), w.into()]);
+    let far = !position.iter().all(|c| c.abs() <= LIMIT);
+    (0..6).fold(u8::from(far) << 6, |bits, plane| bits | (u8::from(distances[plane] < 0.0) << plane))
 }
 
 /// Cuts away what lies outside of the planes whose bits are set in `planes`. The polygon is left

@@ -28,10 +28,27 @@ pub(super) struct Tile {
     pub(super) color: Vec<[u8; 4]>,
     /// Window depth per sample; 1 where nothing was drawn.
     pub(super) depth: Vec<f32>,
-    /// The primitive seen per sample (see `bin::Handle`); 0 where nothing was drawn.
+    /// The primitive seen per sample (see `assemble::Handle`); 0 where nothing was drawn.
     pub(super) visible: Vec<u32>,
     /// Object and triangle per pixel (of sample 0), if asked for.
     pub(super) ids: Vec<u32>,
+    /// The colour that the tile was cleared to, if nothing was drawn since.
+    pub(super) cleared: Option<[u8; 4]>,
+}
+
+impl Tile {
+    /// Column and row of the tile in the picture.
+    pub(super) fn place(&self) -> [usize; 2] {
+        [self.left / TILE, self.top / TILE]
+    }
+
+    /// Clears colour, depth and visibility.
+    pub(super) fn clear(&mut self, color: [u8; 4]) {
+        self.color.fill(color);
+        self.depth.fill(1.0);
+        self.visible.fill(0);
+        self.cleared = Some(color);
+    }
 }
 
 impl Framebuffer {
@@ -47,6 +64,7 @@ impl Framebuffer {
                 depth: vec![1.0; TILE_PIXELS * samples],
                 visible: vec![0; TILE_PIXELS * samples],
                 ids: Vec::new(),
+                cleared: None,
             })
             .collect();
         Self { width, height, samples, columns, tiles }

@@ -6,7 +6,7 @@
 //! is exact integer arithmetic on ends in 1/256 pixel.
 
 use super::{
-    bin::Handle,
+    assemble::Handle,
     framebuffer::{TILE, Tile},
     setup::{Line, SUBPIXELS, Viewport},
     tile::TileBounds,

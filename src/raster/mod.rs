@@ -1,10 +1,11 @@
 //! The rasteriser: draw calls in, a picture out.
 //!
-//! `vertex` → `clip` → `setup` → `bin` → per tile: `tile` and `line` (what is seen where) →
+//! `vertex` → `assemble` (`clip`, `setup`) → `bin` → per tile: `tile` and `line` (what is seen where) →
 //! `shade` (what colour it has). Visibility comes first and only what is seen is shaded, so
 //! a hidden fragment costs no shading. Tiles and chunks are disjoint pieces of work of fixed size;
 //! within a tile primitives keep their submission order: the same bytes for any number of threads.
 
+mod assemble;
 mod bin;
 mod clip;
 mod framebuffer;
@@ -30,7 +31,7 @@ use crate::{
     mesh::Attributes,
     shader::glsl::{FragmentProgram, VertexProgram},
 };
-use bin::{CHUNK, Chunk};
+use assemble::{CHUNK, Chunk};
 use setup::Viewport;
 use shade::{FragmentList, Shade, ShadeInput};
 use vertex::VertexBuffer;
@@ -46,7 +47,7 @@ pub enum Primitives<'a> {
     Lines(&'a [[u32; 2]]),
 }
 
-type VertexStage<'a> = Box<dyn Fn() -> VertexBuffer + Send + Sync + 'a>;
+type VertexStage<'a> = Box<dyn Fn(&Viewport) -> VertexBuffer + Send + Sync + 'a>;
 type FragmentStage<'a> = Box<dyn Fn(&ShadeInput<'_>, &mut FragmentList) + Send + Sync + 'a>;
 
 /// A mesh with its two programs.
@@ -68,7 +69,9 @@ impl<'a> DrawCall<'a> {
     ) -> Self {
         Self {
             primitives,
-            vertex_stage: Box::new(move || vertex::run(count, &attributes, &vertex_program)),
+            vertex_stage: Box::new(move |viewport| {
+                vertex::run(count, viewport, &attributes, &vertex_program)
+            }),
             fragment_stage: Box::new(move |input, list| {
                 dispatch(Shade { input, list, program: &fragment_program, varyings: PhantomData::<[L; N]> });
             }),
@@ -128,24 +131,17 @@ pub fn draw(
     ids: bool,
 ) -> (Stats, Stages) {
     let started = Instant::now();
-    let buffers: Vec<VertexBuffer> = calls.iter().map(|call| (call.vertex_stage)()).collect();
+    let viewport = viewport(framebuffer);
+    let buffers: Vec<VertexBuffer> = calls.iter().map(|call| (call.vertex_stage)(&viewport)).collect();
     let shaded = Instant::now();
-    let chunks = assemble(framebuffer, calls, &buffers);
+    let chunks = assemble(calls, &buffers, &viewport);
     let binned = Instant::now();
 
-    let scene = TileScene {
-        calls,
-        buffers: &buffers,
-        chunks: &chunks,
-        viewport: viewport(framebuffer),
-        background,
-        ids,
-    };
+    let scene = TileScene { calls, buffers: &buffers, chunks: &chunks, viewport, background, ids };
     let tiles: Vec<TileCost> = framebuffer
         .tiles
         .par_iter_mut()
-        .enumerate()
-        .map(|(index, tile)| resolve::draw_tile(tile, index, &scene))
+        .map_init(FragmentList::default, |list, tile| resolve::draw_tile(tile, &scene, list))
         .collect();
 
     let wall = binned.elapsed();
@@ -185,8 +181,7 @@ fn viewport(framebuffer: &Framebuffer) -> Viewport {
 }
 
 /// Clips, sets up and bins the primitives of all calls, chunk by chunk.
-fn assemble(framebuffer: &Framebuffer, calls: &[DrawCall<'_>], buffers: &[VertexBuffer]) -> Vec<Chunk> {
-    let (viewport, columns, tiles) = (viewport(framebuffer), framebuffer.columns, framebuffer.tiles.len());
+fn assemble(calls: &[DrawCall<'_>], buffers: &[VertexBuffer], viewport: &Viewport) -> Vec<Chunk> {
     let pieces: Vec<(usize, usize)> = calls
         .iter()
         .enumerate()
@@ -194,16 +189,14 @@ fn assemble(framebuffer: &Framebuffer, calls: &[DrawCall<'_>], buffers: &[Vertex
         .collect();
     let chunk = |&(call, first): &(usize, usize)| {
         let last = calls[call].primitives.len().min(first + CHUNK);
-        let mut chunk = match calls[call].primitives {
+        match calls[call].primitives {
             Primitives::Triangles(all) => {
-                Chunk::of_triangles((call, first), &all[first..last], &buffers[call], &viewport)
+                Chunk::of_triangles((call, first), &all[first..last], &buffers[call], viewport)
             }
             Primitives::Lines(all) => {
-                Chunk::of_lines((call, first), &all[first..last], &buffers[call], &viewport)
+                Chunk::of_lines((call, first), &all[first..last], &buffers[call], viewport)
             }
-        };
-        chunk.sort_into_tiles(columns, tiles);
-        chunk
+        }
     };
     pieces.par_iter().map(chunk).collect()
 }

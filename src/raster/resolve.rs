@@ -9,82 +9,97 @@ use std::{ops::Range, time::Instant};
 
 use super::{
     TileCost, TileScene,
-    bin::{Handle, handle, place},
+    assemble::{Handle, handle, place},
     framebuffer::{TILE_PIXELS, Tile},
     line::draw_line,
     shade::{FragmentList, ShadeInput},
     tile::{TileBounds, draw_triangle},
 };
-use crate::dispatch::{Work, dispatch};
+use crate::{
+    dispatch::{Work, dispatch},
+    lanes::WIDTH,
+};
 
-/// Draws one tile.
-pub(super) fn draw_tile(tile: &mut Tile, index: usize, scene: &TileScene<'_>) -> TileCost {
+/// Draws one tile. What is in `list` does not matter; its memory is used.
+pub(super) fn draw_tile(tile: &mut Tile, scene: &TileScene<'_>, list: &mut FragmentList) -> TileCost {
     let started = Instant::now();
-    tile.depth.fill(1.0);
-    tile.visible.fill(0);
-    dispatch(Visibility { tile, index, scene });
+    let at = tile.place();
+    let touching = (0..scene.chunks.len()).filter(|&chunk| !scene.chunks[chunk].bins.in_tile(at).is_empty());
+    let chunks: Vec<usize> = touching.collect();
+    let background = store(scene.background.map(clamp));
+    // A tile in which nothing is drawn, as in the picture before, need not be cleared again.
+    if !chunks.is_empty() || tile.cleared != Some(background) {
+        tile.clear(background);
+    }
+    if !chunks.is_empty() {
+        tile.cleared = None;
+        dispatch(Visibility { tile, chunks: &chunks, scene });
+    }
     let seen = Instant::now();
-    let mut cost = TileCost { raster: seen - started, ..TileCost::default() };
+    let (fragments, covered) = shade_tile(tile, &chunks, scene, list);
+    tile.ids.clear();
+    if scene.ids {
+        tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
+    }
+    TileCost { fragments, covered, raster: seen - started, shading: seen.elapsed() }
+}
 
+/// Colours what is seen of the chunks that touch the tile; how many fragments and pixels that was.
+fn shade_tile(
+    tile: &mut Tile,
+    chunks: &[usize],
+    scene: &TileScene<'_>,
+    list: &mut FragmentList,
+) -> (u64, u64) {
     let samples = scene.viewport.samples;
-    let mut sums = vec![[0.0; 3]; if samples > 1 { TILE_PIXELS } else { 0 }];
-    tile.color.fill(store(scene.background.map(clamp)));
+    let mut sums = vec![[0.0; 3]; if samples > 1 && !chunks.is_empty() { TILE_PIXELS } else { 0 }];
     add_background(tile, scene, &mut sums);
-    let mut list = FragmentList::default();
-    for call in (0..scene.calls.len()).filter(|&call| touches(call, index, scene)) {
-        collect_fragments(tile, call, scene, &mut list);
-        shade_fragments(tile, call, scene, &mut list);
-        dispatch(WriteColors { tile, list: &list, samples, sums: &mut sums });
-        cost.fragments += list.len as u64;
+    let mut fragments = 0;
+    for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
+        let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
+        collect_fragments(tile, first..last + 1, samples, list);
+        shade_fragments(tile, scene.chunks[first].call, scene, list);
+        dispatch(WriteColors { tile, list, samples, sums: &mut sums });
+        fragments += list.len as u64;
     }
     for (color, sum) in tile.color.iter_mut().zip(&sums) {
         #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
         let mean = sum.map(|channel| channel as f32);
         *color = store(mean);
     }
-    tile.ids.clear();
-    if scene.ids {
-        tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
-    }
-    cost.covered = if samples == 1 { cost.fragments } else { covered(tile, samples) };
-    cost.shading = seen.elapsed();
-    cost
+    (fragments, if samples == 1 { fragments } else { covered(tile, samples) })
 }
 
 /// Depth and visibility of every primitive that touches the tile, in submission order.
 struct Visibility<'a> {
     tile: &'a mut Tile,
-    index: usize,
+    chunks: &'a [usize],
     scene: &'a TileScene<'a>,
 }
 
 impl Work for Visibility<'_> {
     #[inline(always)]
     fn run(self) {
-        let Self { tile, index, scene } = self;
-        for (number, chunk) in scene.chunks.iter().enumerate() {
-            for &primitive in chunk.in_tile(index) {
-                let bounds = TileBounds::of(chunk.bounds(primitive), tile);
+        let Self { tile, chunks, scene } = self;
+        let viewport = &scene.viewport;
+        for &number in chunks {
+            let chunk = &scene.chunks[number];
+            let vertices = &scene.buffers[chunk.call];
+            for &primitive in chunk.bins.in_tile(tile.place()) {
                 let handle = handle(number, primitive);
                 if let Some(triangle) = chunk.triangles.get(primitive as usize) {
-                    draw_triangle(tile, triangle, bounds, handle, &scene.viewport);
+                    let bounds = TileBounds::of(triangle.bounds, tile);
+                    let [a, b, c] = triangle.vertices;
+                    let corners =
+                        [chunk.corner(a, vertices), chunk.corner(b, vertices), chunk.corner(c, vertices)];
+                    draw_triangle(tile, &corners, triangle.scale, bounds, handle, viewport);
                 } else if let Some(line) = chunk.lines.get(primitive as usize) {
-                    draw_line(tile, line, bounds, handle, &scene.viewport);
+                    let bounds = TileBounds::of(line.bounds, tile);
+                    draw_line(tile, line, bounds, handle, viewport);
                 }
             }
         }
     }
-}
-
-/// The chunks of a draw call.
-fn chunks_of(call: usize, scene: &TileScene<'_>) -> Range<usize> {
-    let first = scene.chunks.partition_point(|chunk| chunk.call < call);
-    first..scene.chunks.partition_point(|chunk| chunk.call <= call)
-}
-
-/// Whether a primitive of a draw call may touch the tile.
-fn touches(call: usize, tile: usize, scene: &TileScene<'_>) -> bool {
-    scene.chunks[chunks_of(call, scene)].iter().any(|chunk| !chunk.in_tile(tile).is_empty())
 }
 
 /// Pixels of which at least one sample sees something.
@@ -100,20 +115,19 @@ fn covered(tile: &Tile, samples: usize) -> u64 {
 }
 
 /// What each sample of a pixel sees.
-fn samples_of<'a>(tile: &'a Tile, scene: &TileScene<'_>, pixel: usize) -> impl Iterator<Item = Handle> + 'a {
-    (0..scene.viewport.samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
+fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
+    (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
 }
 
-/// Lists the pixels in which a primitive of draw call `call` is seen, each primitive once a pixel.
-fn collect_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
+/// Lists the pixels in which a primitive of these chunks is seen, each primitive once a pixel.
+fn collect_fragments(tile: &Tile, chunks: Range<usize>, samples: usize, list: &mut FragmentList) {
     list.clear();
-    let chunks = chunks_of(call, scene);
     let handles = handle(chunks.start, 0)..handle(chunks.end, 0);
-    if scene.viewport.samples == 1 {
+    if samples == 1 {
         list.list_visible(&tile.visible, &handles);
     } else {
         for pixel in 0..TILE_PIXELS {
-            list.add_pixel(pixel, samples_of(tile, scene, pixel).filter(|seen| handles.contains(seen)));
+            list.add_pixel(pixel, samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen)));
         }
     }
     list.finish();
@@ -140,13 +154,22 @@ impl Work for WriteColors<'_> {
     fn run(self) {
         let Self { tile, list, samples, sums } = self;
         let [red, green, blue] = &list.colors;
-        let colors = red.iter().zip(green).zip(blue);
-        for (i, (&pixel, ((&r, &g), &b))) in list.pixels[..list.len].iter().zip(colors).enumerate() {
-            let pixel = usize::from(pixel);
-            if samples == 1 {
-                tile.color[pixel] = store([r, g, b]);
-            } else {
-                add(&mut sums[pixel], [r, g, b], f64::from(list.weights[i]) / samples as f64);
+        if samples > 1 {
+            for (i, &pixel) in list.pixels[..list.len].iter().enumerate() {
+                let share = f64::from(list.weights[i]) / samples as f64;
+                add(&mut sums[usize::from(pixel)], [red[i], green[i], blue[i]], share);
+            }
+            return;
+        }
+        let colors = red.chunks_exact(WIDTH).zip(green.chunks_exact(WIDTH)).zip(blue.chunks_exact(WIDTH));
+        for (pixels, ((red, green), blue)) in list.pixels.chunks_exact(WIDTH).zip(colors) {
+            // The list is filled up with a fragment that is stored once more, with the same colour.
+            let mut colors = [[0; 4]; WIDTH];
+            for (i, color) in colors.iter_mut().enumerate() {
+                *color = store([red[i], green[i], blue[i]]);
+            }
+            for (&pixel, color) in pixels.iter().zip(colors) {
+                tile.color[usize::from(pixel)] = color;
             }
         }
     }
@@ -156,7 +179,7 @@ impl Work for WriteColors<'_> {
 fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f64; 3]]) {
     let background = scene.background.map(clamp);
     for (pixel, sum) in sums.iter_mut().enumerate() {
-        let free = samples_of(tile, scene, pixel).filter(|&handle| handle == 0).count();
+        let free = samples_of(tile, scene.viewport.samples, pixel).filter(|&handle| handle == 0).count();
         #[expect(clippy::cast_precision_loss, reason = "at most 16 samples")]
         add(sum, background, free as f64 / scene.viewport.samples as f64);
     }
@@ -196,12 +219,14 @@ fn clamp(c: f32) -> f32 {
 /// 8 bits of each channel in 0..=1, and alpha 1.
 #[inline(always)]
 fn store([r, g, b]: [f32; 3]) -> [u8; 4] {
-    [quantize(r), quantize(g), quantize(b), 255]
+    (quantize(r) | quantize(g) << 8 | quantize(b) << 16 | 255 << 24).to_le_bytes()
 }
 
-/// round-half-even(255·c) for c in 0..=1.
+/// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.
+const WHOLE: f32 = 8_388_608.0;
+
+/// round-half-even(255·c) for c in 0..=1: the addition rounds, and leaves the result in the low bits.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= c <= 1")]
-fn quantize(c: f32) -> u8 {
-    (c * 255.0).round_ties_even() as u8
+fn quantize(c: f32) -> u32 {
+    (c * 255.0 + WHOLE).to_bits() & 0xFF
 }

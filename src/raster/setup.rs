@@ -17,7 +17,7 @@ pub(super) struct Viewport {
 }
 
 /// A vertex in the window: x right, y up (both in pixels, unsnapped), depth, and 1/w.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct WindowVertex {
     pub(super) x: f32,
     pub(super) y: f32,
@@ -25,17 +25,25 @@ pub(super) struct WindowVertex {
     pub(super) r: f32,
 }
 
+/// A vertex as triangles need it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Corner {
+    pub(super) window: WindowVertex,
+    /// The place in 1/256 pixel, x right, y down; absent if it is NaN, infinite or beyond the grid.
+    pub(super) snapped: Option<[i32; 2]>,
+}
+
 /// A triangle ready for the tiles. Its corners are ordered so that its snapped area is positive
 /// with y down.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
-    pub(super) window: [WindowVertex; 3],
-    /// Corners in 1/256 pixel, x right, y down.
-    pub(super) snapped: [[i32; 2]; 3],
-    /// Where each corner's varyings stand (see `bin::Chunk::varyings_of`).
+    /// Where each corner stands (see `assemble::Chunk::corner`).
     pub(super) vertices: [u32; 3],
     /// Number of the triangle in its mesh.
     pub(super) source: u32,
+    pub(super) bounds: Bounds,
+    /// 1 / `window_area`.
+    pub(super) scale: f64,
 }
 
 /// A line ready for the tiles: from the first point up to, not including, the last.
@@ -44,13 +52,14 @@ pub(super) struct Line {
     pub(super) window: [WindowVertex; 2],
     pub(super) snapped: [[i32; 2]; 2],
     pub(super) source: u32,
+    pub(super) bounds: Bounds,
 }
 
 /// Pixels that a primitive may touch: first and last column and row, inclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Bounds {
-    pub(super) x: [usize; 2],
-    pub(super) y: [usize; 2],
+    pub(super) x: [u16; 2],
+    pub(super) y: [u16; 2],
 }
 
 /// Why a primitive is not drawn.
@@ -65,9 +74,17 @@ pub(super) enum Dropped {
 }
 
 impl Viewport {
+    /// A vertex from its clip-space position.
+    #[inline(always)]
+    pub(super) fn corner(&self, position: [f32; 4]) -> Corner {
+        let window = self.window(position);
+        Corner { window, snapped: self.snap(window) }
+    }
+
     /// The window position of a clip-space position, as GL defines it: r = 1/w, ndc = clip·r.
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "window coordinates are f32 by definition")]
-    pub(super) fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowVertex {
+    fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowVertex {
         let r = 1.0 / w;
         let half = |extent: usize| extent as f64 / 2.0;
         let place = |ndc: f32, extent: usize| (f64::from(ndc) * half(extent) + half(extent)) as f32;
@@ -75,16 +92,14 @@ impl Viewport {
     }
 
     /// The position on the snapping grid, rounded half to even; y turned down.
-    pub(super) fn snap(&self, v: WindowVertex) -> Result<[i32; 2], Dropped> {
+    #[inline(always)]
+    fn snap(&self, v: WindowVertex) -> Option<[i32; 2]> {
         let finite = v.z.is_finite() && v.r.is_finite();
         let grid = |c: f32| (c * SUBPIXELS as f32).round_ties_even();
         let (x, y) = (grid(v.x), grid(v.y));
-        if finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT {
-            #[expect(clippy::cast_possible_truncation, reason = "checked right above")]
-            Ok([x as i32, self.flip(y as i32)])
-        } else {
-            Err(Dropped::NonFinite)
-        }
+        #[expect(clippy::cast_possible_truncation, reason = "only used where it is within the limit")]
+        let snapped = [x as i32, self.flip(y as i32)];
+        (finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT).then_some(snapped)
     }
 
     /// Turns a snapped y up into y down, and back.
@@ -93,45 +108,42 @@ impl Viewport {
         self.height as i32 * SUBPIXELS - y
     }
 
-    /// Sets up a triangle from its corners in clip space.
+    /// A corner moved to its place on the snapping grid.
+    pub(super) fn on_grid(&self, corner: Corner) -> Corner {
+        let Some([x, y]) = corner.snapped else { return corner };
+        let [x, y] = [x, self.flip(y)].map(|c| c as f32 / SUBPIXELS as f32);
+        Corner { window: WindowVertex { x, y, ..corner.window }, ..corner }
+    }
+
+    /// Sets up a triangle from its corners.
     pub(super) fn triangle(
         &self,
-        corners: [[f32; 4]; 3],
+        [a, b, c]: [Corner; 3],
         vertices: [u32; 3],
         source: u32,
-    ) -> Result<(Triangle, Bounds), Dropped> {
-        let mut window = corners.map(|corner| self.window(corner));
-        let mut snapped = [self.snap(window[0])?, self.snap(window[1])?, self.snap(window[2])?];
-        let mut vertices = vertices;
+    ) -> Result<Triangle, Dropped> {
+        let snapped = [placed(a)?, placed(b)?, placed(c)?];
         let area = area(snapped);
         if area == 0 {
             return Err(Dropped::Degenerate);
         }
+        let bounds = self.bounds(&snapped)?;
+        let (mut window, mut vertices) = ([a.window, b.window, c.window], vertices);
         if area < 0 {
             window.swap(1, 2);
-            snapped.swap(1, 2);
             vertices.swap(1, 2);
         }
-        let bounds = self.bounds(&snapped)?;
-        if window_area(&window) == 0.0 {
-            // The planes of depth and attributes need an area; the snapped corners have one.
-            for (vertex, [x, y]) in window.iter_mut().zip(snapped) {
-                vertex.x = x as f32 / SUBPIXELS as f32;
-                vertex.y = self.flip(y) as f32 / SUBPIXELS as f32;
-            }
-        }
-        Ok((Triangle { window, snapped, vertices, source }, bounds))
+        Ok(Triangle { vertices, source, bounds, scale: 1.0 / window_area(&window) })
     }
 
-    /// Sets up a line from its ends in clip space.
-    pub(super) fn line(&self, ends: [[f32; 4]; 2], source: u32) -> Result<(Line, Bounds), Dropped> {
-        let window = ends.map(|end| self.window(end));
-        let snapped = [self.snap(window[0])?, self.snap(window[1])?];
+    /// Sets up a line from its ends.
+    pub(super) fn line(&self, ends: [Corner; 2], source: u32) -> Result<Line, Dropped> {
+        let snapped = [placed(ends[0])?, placed(ends[1])?];
         let [x, y] = [0, 1].map(|axis| {
             let [a, b] = snapped.map(|corner| corner[axis].div_euclid(SUBPIXELS));
             [a.min(b) - 1, a.max(b) + 1]
         });
-        Ok((Line { window, snapped, source }, self.inside(x, y)?))
+        Ok(Line { window: ends.map(|end| end.window), snapped, source, bounds: self.inside(x, y)? })
     }
 
     /// The pixels of which at least one sample may lie inside the corners' box.
@@ -155,13 +167,19 @@ impl Viewport {
         let within = |[first, last]: [i32; 2], extent: usize| {
             let last = usize::try_from(last).ok()?.min(extent.checked_sub(1)?);
             let first = usize::try_from(first.max(0)).ok()?;
-            (first <= last).then_some([first, last])
+            #[expect(clippy::cast_possible_truncation, reason = "pictures are at most 16384 pixels wide")]
+            (first <= last).then_some([first as u16, last as u16])
         };
         match (within(x, self.width), within(y, self.height)) {
             (Some(x), Some(y)) => Ok(Bounds { x, y }),
             _ => Err(Dropped::NoSample),
         }
     }
+}
+
+/// The place of a corner on the snapping grid.
+fn placed(corner: Corner) -> Result<[i32; 2], Dropped> {
+    corner.snapped.ok_or(Dropped::NonFinite)
 }
 
 /// Twice the signed area, in (1/256 pixel)², positive when the corners turn right with y down.

@@ -8,9 +8,9 @@
 use std::{marker::PhantomData, ops::Range};
 
 use super::{
-    bin::{Chunk, Handle, place},
+    assemble::{Chunk, Handle, place},
     framebuffer::TILE,
-    setup::window_area,
+    setup::Triangle,
     vertex::VertexBuffer,
 };
 use crate::{
@@ -22,6 +22,10 @@ use crate::{
 /// A tile's side as the fragment list counts pixels.
 #[expect(clippy::cast_possible_truncation, reason = "a tile is 64 pixels wide")]
 const TILE_SIDE: u16 = TILE as u16;
+
+/// Pixels of a block of four by two. Small triangles fill blocks better than rows, and the fewer
+/// triangles meet in a group of fragments, the less there is to interpolate.
+const BLOCK: [usize; WIDTH] = [0, 1, 2, 3, TILE, TILE + 1, TILE + 2, TILE + 3];
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
@@ -55,15 +59,21 @@ impl FragmentList {
         self.primitives.clear();
     }
 
-    /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`.
+    /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.
     pub(super) fn list_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
         self.pixels.resize(visible.len(), 0);
         self.primitives.resize(visible.len(), 0);
         let mut len = 0;
-        for (pixel, &primitive) in (0..).zip(visible) {
-            // Written always and kept only if it is one: no branch to mispredict.
-            (self.pixels[len], self.primitives[len]) = (pixel, primitive);
-            len += usize::from(handles.contains(&primitive));
+        for row in (0..visible.len()).step_by(2 * TILE) {
+            for first in (row..row + TILE).step_by(4) {
+                for offset in BLOCK {
+                    let (pixel, primitive) = (first + offset, visible[first + offset]);
+                    // Written always and kept only if it is one: no branch to mispredict.
+                    self.pixels[len] = place_in_tile(pixel);
+                    self.primitives[len] = primitive;
+                    len += usize::from(handles.contains(&primitive));
+                }
+            }
         }
         self.pixels.truncate(len);
         self.primitives.truncate(len);
@@ -76,8 +86,7 @@ impl FragmentList {
             if let Some(known) = self.primitives[first..].iter().position(|&other| other == primitive) {
                 self.weights[first + known] += 1;
             } else {
-                #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
-                self.pixels.push(pixel as u16);
+                self.pixels.push(place_in_tile(pixel));
                 self.weights.push(1);
                 self.primitives.push(primitive);
             }
@@ -96,6 +105,12 @@ impl FragmentList {
             plane.resize(padded, 0.0);
         }
     }
+}
+
+/// The number of a pixel as the list keeps it.
+#[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
+fn place_in_tile(pixel: usize) -> u16 {
+    pixel as u16
 }
 
 /// Shades all fragments of a list; colours are clamped to 0..=1, NaN is 0.
@@ -134,7 +149,8 @@ fn varyings<L: Lane, const N: usize>(
     if N == 0 {
         return result;
     }
-    let [x0, y0] = input.origin.map(<L::Double as Lane>::splat);
+    let [x0, y0] = input.origin;
+    let (x0, y0) = (<L::Double as Lane>::splat(x0), <L::Double as Lane>::splat(y0));
     let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
     let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
     let mut previous = 0;
@@ -146,7 +162,10 @@ fn varyings<L: Lane, const N: usize>(
         if i == 0 {
             result = at;
         } else {
-            let mask = std::array::from_fn(|i| primitives.get(i).is_some_and(|&other| other == primitive));
+            let mut mask = [false; WIDTH];
+            for (mask, &other) in mask.iter_mut().zip(primitives) {
+                *mask = other == primitive;
+            }
             for (result, at) in result.iter_mut().zip(at) {
                 *result = result.replace(&mask, at);
             }
@@ -166,14 +185,12 @@ fn interpolate<L: Lane, const N: usize>(
 ) -> [L; N] {
     let (chunk, index) = place(primitive);
     let chunk = &input.chunks[chunk];
-    let triangle = &chunk.triangles[index];
-    let [a, b, c] = &triangle.window;
+    let Triangle { vertices: [i0, i1, i2], scale, .. } = chunk.triangles[index];
+    let corner = |vertex: u32| chunk.corner(vertex, input.vertices).window;
+    let (a, b, c) = (corner(i0), corner(i1), corner(i2));
     let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-    let scale = 1.0 / window_area(&triangle.window);
-    let plane = |gx: f64, gy: f64| {
-        let [gx, gy] = [gx * scale, gy * scale].map(L::splat_double);
-        gx * (x - <L::Double as Lane>::splat(a.x)) + gy * (y - <L::Double as Lane>::splat(a.y))
-    };
+    let (x, y) = (x - <L::Double as Lane>::splat(a.x), y - <L::Double as Lane>::splat(a.y));
+    let plane = |gx: f64, gy: f64| L::splat_double(gx * scale) * x + L::splat_double(gy * scale) * y;
     let l1 = plane(d(c.y, a.y), -d(c.x, a.x));
     let l2 = plane(-d(b.y, a.y), d(b.x, a.x));
     let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
@@ -181,8 +198,13 @@ fn interpolate<L: Lane, const N: usize>(
     let w1 = L::narrow(l1) * L::splat(b.r);
     let w2 = L::narrow(l2) * L::splat(c.r);
     let w = L::splat(1.0) / (w0 + w1 + w2);
-    let [a0, a1, a2] = triangle.vertices.map(|v| chunk.varyings_of::<N>(v, input.vertices));
-    std::array::from_fn(|k| (w0 * L::splat(a0[k]) + w1 * L::splat(a1[k]) + w2 * L::splat(a2[k])) * w)
+    let varyings = |vertex: u32| chunk.varyings_of::<N>(vertex, input.vertices);
+    let (a, b, c) = (varyings(i0), varyings(i1), varyings(i2));
+    let mut result = [L::splat(0.0); N];
+    for (k, result) in result.iter_mut().enumerate() {
+        *result = (w0 * L::splat(a[k]) + w1 * L::splat(b[k]) + w2 * L::splat(c[k])) * w;
+    }
+    result
 }
 
 /// Clamps to 0..=1; NaN gives 0.

@@ -7,13 +7,15 @@
 //! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
 //! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
+use std::hint::black_box;
+
 use super::{
-    bin::Handle,
+    assemble::Handle,
     framebuffer::{TILE, TILE_PIXELS, Tile},
     samples,
-    setup::{Bounds, SUBPIXELS, Triangle, Viewport, window_area},
+    setup::{Bounds, Corner, SUBPIXELS, Viewport},
 };
-use crate::lanes::WIDTH;
+use crate::lanes::{Lane, WIDTH, Wide};
 
 /// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,6 +23,26 @@ struct Edge {
     at: i32,
     column: i32,
     row: i32,
+}
+
+impl Edge {
+    /// The value at a pixel.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "x and y are below 64")]
+    fn value(&self, x: usize, y: usize) -> i32 {
+        self.at + self.column * x as i32 + self.row * y as i32
+    }
+
+    /// What the value grows by from the first of eight pixels of a row to each of them.
+    #[inline(always)]
+    fn steps(&self) -> [i32; WIDTH] {
+        // Factors that the compiler sees it would shift or leave out, and then not vectorise.
+        let mut steps = black_box([0, 1, 2, 3, 4, 5, 6, 7]);
+        for step in &mut steps {
+            *step *= self.column;
+        }
+        steps
+    }
 }
 
 /// Window depth as a plane: z = `at` + x·`column` + y·`row` at window position (x, y), y up.
@@ -42,26 +64,27 @@ pub(super) struct TileBounds {
 impl TileBounds {
     /// Cuts picture bounds to a tile that they touch.
     pub(super) fn of(bounds: Bounds, tile: &Tile) -> Self {
-        let within = |[first, last]: [usize; 2], start: usize| {
-            [first.max(start) - start, (last - start).min(TILE - 1)]
+        let within = |[first, last]: [u16; 2], start: usize| {
+            [usize::from(first).max(start) - start, (usize::from(last) - start).min(TILE - 1)]
         };
         Self { x: within(bounds.x, tile.left), y: within(bounds.y, tile.top) }
     }
 }
 
-/// Draws a triangle into a tile's depth and visibility. Returns the samples that passed.
+/// Draws a triangle into a tile's depth and visibility.
 #[inline(always)]
 pub(super) fn draw_triangle(
     tile: &mut Tile,
-    triangle: &Triangle,
+    corners: &[Corner; 3],
+    scale: f64,
     bounds: TileBounds,
     handle: Handle,
     viewport: &Viewport,
 ) {
-    let depth = DepthPlane::of(triangle);
+    let depth = DepthPlane::of(corners, scale);
     for (sample, position) in samples::positions(viewport.samples).iter().enumerate() {
-        let offset = position.map(|sixteenths| sixteenths * (SUBPIXELS / 16));
-        if let Some(edges) = tile_edges(triangle, tile, offset) {
+        let offset = [position[0] * (SUBPIXELS / 16), position[1] * (SUBPIXELS / 16)];
+        if let Some(edges) = tile_edges(corners, tile, offset) {
             draw_sample(tile, sample * TILE_PIXELS, &edges, &depth, offset, bounds, handle, viewport.height);
         }
     }
@@ -80,15 +103,20 @@ fn draw_sample(
     handle: Handle,
     height: usize,
 ) {
-    let [dx, dy] = offset.map(|o| f64::from(o) / f64::from(SUBPIXELS));
+    let dx = f64::from(offset[0]) / f64::from(SUBPIXELS);
+    let dy = f64::from(offset[1]) / f64::from(SUBPIXELS);
+    let steps = [edges[0].steps(), edges[1].steps(), edges[2].steps()];
+    let most = [steps[0][7].max(0), steps[1][7].max(0), steps[2][7].max(0)];
     for y in bounds.y[0]..=bounds.y[1] {
-        let window_y = height as f64 - ((tile.top + y) as f64 + dy);
+        let window_y = height as f64 - (whole(tile.top + y) + dy);
         let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
         let row = base + y * TILE;
-        for x in (bounds.x[0]..=bounds.x[1]).step_by(WIDTH) {
-            let x = x.min(TILE - WIDTH);
-            let edges = edge_signs(edges, x, y);
-            if edges.iter().fold(-1, |all, e| all & e) < 0 {
+        let mut start = bounds.x[0];
+        while start <= bounds.x[1] {
+            let x = start.min(TILE - WIDTH);
+            start += WIDTH;
+            let at = [edges[0].value(x, y), edges[1].value(x, y), edges[2].value(x, y)];
+            if (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0 {
                 continue;
             }
             let (Some(depths), Some(visible)) =
@@ -96,32 +124,36 @@ fn draw_sample(
             else {
                 continue;
             };
-            let window_x = (tile.left + x) as f64 + dx - plane.origin[0];
-            depth_test(&edges, row_depth, plane.column, window_x, handle, depths, visible);
+            let mut signs = [0; WIDTH];
+            for (i, sign) in signs.iter_mut().enumerate() {
+                // Negative where the pixel is outside of any edge.
+                *sign = (at[0] + steps[0][i]) | (at[1] + steps[1][i]) | (at[2] + steps[2][i]);
+            }
+            let window_x = whole(tile.left + x) + dx - plane.origin[0];
+            depth_test(&signs, row_depth, plane.column, window_x, handle, depths, visible);
         }
     }
 }
 
-/// Per pixel, a number that is negative if the pixel is outside of any edge: eight pixels of row
-/// `y` from column `x`.
+/// A column or row of the picture as a number.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "x and y are below 64")]
-fn edge_signs(edges: &[Edge; 3], x: usize, y: usize) -> [i32; WIDTH] {
-    let start = |edge: &Edge| edge.at + edge.column * x as i32 + edge.row * y as i32;
-    let (a, b, c) = (start(&edges[0]), start(&edges[1]), start(&edges[2]));
-    let mut signs = [0; WIDTH];
-    for (i, sign) in signs.iter_mut().enumerate() {
-        let i = i as i32;
-        *sign = (a + edges[0].column * i) | (b + edges[1].column * i) | (c + edges[2].column * i);
-    }
-    signs
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "pictures are at most 16384 wide"
+)]
+fn whole(pixel: usize) -> f64 {
+    f64::from(pixel as i32)
 }
 
-/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
+/// The columns of eight pixels, from the first one's.
+const COLUMNS: Wide<f64> = Wide([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+
+/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive. No branch a
+/// pixel, so that it is vectorised.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the depth buffer is f32")]
 fn depth_test(
-    edges: &[i32; WIDTH],
+    signs: &[i32; WIDTH],
     row_depth: f64,
     column_depth: f64,
     window_x: f64,
@@ -129,24 +161,31 @@ fn depth_test(
     depths: &mut [f32; WIDTH],
     visible: &mut [Handle; WIDTH],
 ) {
+    type Lanes = Wide<f32>;
+    let columns = Lanes::splat_double(window_x) + COLUMNS;
+    let z = Lanes::narrow(Lanes::splat_double(row_depth) + Lanes::splat_double(column_depth) * columns);
+    // A sample may lie outside of the unsnapped corners, and the plane there below 0.
+    let z = z.select_less(Lanes::splat(0.0), Lanes::splat(0.0), z);
     for i in 0..WIDTH {
-        let z = (row_depth + column_depth * (window_x + i as f64)) as f32;
-        // A sample may lie outside of the unsnapped corners, and the plane there below 0.
-        let z = if z < 0.0 { 0.0 } else { z };
-        let pass = (edges[i] >= 0) & (z < depths[i]);
+        // Outside, all bits are set: a NaN, which is not nearer than anything.
+        let z = f32::from_bits(z.0[i].to_bits() | (signs[i] >> 31).cast_unsigned());
+        let pass = z < depths[i];
         depths[i] = if pass { z } else { depths[i] };
-        visible[i] = if pass { handle } else { visible[i] };
+        let kept = u32::from(pass).wrapping_neg();
+        visible[i] = (handle & kept) | (visible[i] & !kept);
     }
 }
 
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
-fn tile_edges(triangle: &Triangle, tile: &Tile, offset: [i32; 2]) -> Option<[Edge; 3]> {
-    let [a, b, c] = triangle.snapped;
+#[inline(always)]
+fn tile_edges(corners: &[Corner; 3], tile: &Tile, offset: [i32; 2]) -> Option<[Edge; 3]> {
+    let (a, b, c) = (corners[0].snapped?, corners[1].snapped?, corners[2].snapped?);
     Some([tile_edge(a, b, tile, offset)?, tile_edge(b, c, tile, offset)?, tile_edge(c, a, tile, offset)?])
 }
 
 /// The edge from `from` to `to` over a tile; `None` if the whole tile is outside.
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "bounded by `reach` < 2^30")]
+#[inline(always)]
 fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Option<Edge> {
     let (column, row) = (from[1] - to[1], to[0] - from[0]);
     let inclusive = column > 0 || (column == 0 && row < 0);
@@ -154,7 +193,7 @@ fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Opt
         start as i64 * i64::from(SUBPIXELS) + i64::from(offset[axis]) - i64::from(from[axis])
     };
     let value = i64::from(column) * first(tile.left, 0) + i64::from(row) * first(tile.top, 1);
-    let at = (value - i64::from(!inclusive)).div_euclid(i64::from(SUBPIXELS));
+    let at = (value - i64::from(!inclusive)) >> SUBPIXELS.trailing_zeros();
     let last = TILE as i64 - 1;
     let (columns, rows) = (i64::from(column) * last, i64::from(row) * last);
     if at + columns.max(0) + rows.max(0) < 0 {
@@ -167,11 +206,11 @@ fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Opt
 }
 
 impl DepthPlane {
-    /// The plane through the unsnapped corners.
-    fn of(triangle: &Triangle) -> Self {
-        let [a, b, c] = &triangle.window;
+    /// The plane through the unsnapped corners; `scale` is 1 / `window_area`.
+    #[inline(always)]
+    fn of(corners: &[Corner; 3], scale: f64) -> Self {
+        let [a, b, c] = [&corners[0].window, &corners[1].window, &corners[2].window];
         let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-        let scale = 1.0 / window_area(&triangle.window);
         let (zb, zc) = (d(b.z, a.z), d(c.z, a.z));
         Self {
             origin: [a.x.into(), a.y.into()],

@@ -8,6 +8,7 @@ use crate::{
     cubemap::Cubemap,
     error::{Error, Kind, Result},
     lanes::Wide,
+    math::StateHash,
     mesh::SpringKinds,
     raster::{self, Framebuffer, Stages, Stats},
     scene::{Plan, Scene},
@@ -26,6 +27,18 @@ pub struct Options {
     pub springs: Option<SpringKinds>,
     /// Keep object and triangle ids.
     pub ids: bool,
+    /// The arithmetic of the fragment stage.
+    pub shading: Shading,
+}
+
+/// The arithmetic in which fragment programs run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// binary32, as on a graphics card.
+    #[default]
+    F32,
+    /// binary64, for measuring what binary32 loses: the same programs, uniforms and vertices.
+    F64,
 }
 
 /// A finished picture.
@@ -79,6 +92,15 @@ impl Renderer {
         })
     }
 
+    /// Takes the texels of all textures into `hash`.
+    pub fn hash_textures(&self, hash: &mut StateHash) {
+        let faces = self.cubemaps.iter().flat_map(|(_, cubemap)| cubemap.faces());
+        for texture in self.textures.iter().map(|(_, texture)| texture).chain(faces) {
+            hash.write(&(texture.width() as u64).to_le_bytes());
+            texture.texels().iter().flatten().for_each(|value| hash.write(&value.to_le_bytes()));
+        }
+    }
+
     /// A framebuffer of the scene's size and samples.
     pub fn framebuffer(&self) -> Framebuffer {
         let [width, height] = self.scene.render.size;
@@ -102,7 +124,11 @@ impl Renderer {
         options: &Options,
     ) -> (Stats, Stages) {
         let objects = Object::all(&self.scene, points, options.springs);
-        let calls: Vec<_> = objects.iter().map(|object| self.draw_call::<Wide<f32>>(object)).collect();
+        let call = |object| match options.shading {
+            Shading::F32 => self.draw_call::<Wide<f32>>(object),
+            Shading::F64 => self.draw_call::<Wide<f64>>(object),
+        };
+        let calls: Vec<_> = objects.iter().map(call).collect();
         raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)
     }
 }

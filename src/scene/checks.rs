@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::format::Node;
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Cloth, Damping, Scene, SelfCollision};
+use super::{Cloth, Damping, Integrator, Precision, Scene, SelfCollision, Start};
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -33,6 +33,7 @@ impl Checks<'_> {
             self.thickness(cloth);
             self.damping(cloth);
         }
+        self.only_verlet();
         self.near_and_far();
         self.object_count();
     }
@@ -136,6 +137,31 @@ impl Checks<'_> {
             .also(self.span("sim.damping"), "`sim.damping` is set here")
             .help("lower `cloth.damping` below 100, or leave out `sim.damping`");
         self.error(place, "must be below 100", finding);
+    }
+
+    /// Half a step back is where Verlet's scheme has its velocity; the others have it at the start.
+    /// Their residuals and tensions were not made for binary32.
+    fn only_verlet(&mut self) {
+        let sim = &self.scene.sim;
+        if sim.integrator == Integrator::Verlet || !self.clean(&["sim.integrator"]) {
+            return;
+        }
+        let half_step = sim.start == Start::HalfStep;
+        let why = "other integrators know the velocity at the start";
+        self.verlets("sim.start", half_step, "starts with half a step", why);
+        let single = sim.precision == Precision::F32;
+        self.verlets("sim.precision", single, "runs in binary32", "other integrators are binary64");
+    }
+
+    /// Reports that only Verlet's scheme does what `key` asks for, if it `does` ask.
+    fn verlets(&mut self, key: &str, does: bool, what: &str, why: &str) {
+        if does && self.clean(&[key]) {
+            let finding = Finding::new("scene::integrator", format!("only Verlet's scheme {what}"))
+                .key(key)
+                .also(self.span("sim.integrator"), "`sim.integrator` is set here")
+                .help(format!("leave out `{key}` or `sim.integrator`: {why}"));
+            self.error(self.span(key), "of Verlet's scheme", finding);
+        }
     }
 
     fn near_and_far(&mut self) {

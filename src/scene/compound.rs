@@ -1,5 +1,7 @@
 //! Rules for lists, and for values that may be `null`.
 
+use serde_json::{Value, json};
+
 use super::Vec3;
 use super::format::Json;
 use super::range::{Range, SMALLEST};
@@ -19,6 +21,10 @@ impl Rule for Vector {
 
     fn read(&self, at: &mut At) -> Option<Vec3> {
         at.items(&self.words(), |at, _| Number(self.0).read(at)).map(Vec3::from)
+    }
+
+    fn schema(&self) -> Value {
+        list(3, &Number(self.0).schema())
     }
 
     fn stand_in(&self) -> Vec3 {
@@ -45,6 +51,12 @@ impl Rule for Direction {
         at.not_allowed("scene::zero_vector", &self.words(), "")
     }
 
+    fn schema(&self) -> Value {
+        let mut schema = Vector(self.0).schema();
+        schema["contains"] = json!({ "anyOf": [{ "minimum": SMALLEST }, { "maximum": -SMALLEST }] });
+        schema
+    }
+
     fn stand_in(&self) -> Vec3 {
         Vec3::zeros()
     }
@@ -66,6 +78,11 @@ impl Rule for Counts {
 
     fn read(&self, at: &mut At) -> Option<[u32; 2]> {
         at.items(&self.words(), |at, i| self.0[i].read(at))
+    }
+
+    fn schema(&self) -> Value {
+        let counts = self.0.map(|count| count.schema());
+        json!({ "type": "array", "prefixItems": counts, "minItems": 2, "maxItems": 2 })
     }
 
     fn stand_in(&self) -> [u32; 2] {
@@ -92,6 +109,11 @@ impl Rule for GridPoints {
         points.into_iter().collect()
     }
 
+    fn schema(&self) -> Value {
+        let points = list(2, &json!({ "type": "integer", "minimum": 0 }));
+        json!({ "type": "array", "items": points, "uniqueItems": true })
+    }
+
     fn stand_in(&self) -> Vec<[i64; 2]> {
         Vec::new()
     }
@@ -101,6 +123,11 @@ fn grid_index(at: &mut At) -> Option<i64> {
     let words = "a whole number";
     let Json::Number(value) = at.node.json else { return at.wrong_type(words) };
     whole(value).or_else(|| at.not_allowed("scene::out_of_range", words, ""))
+}
+
+/// The schema of a list of `length` values.
+fn list(length: usize, items: &Value) -> Value {
+    json!({ "type": "array", "items": items, "minItems": length, "maxItems": length })
 }
 
 /// The rule, or `null` for none.
@@ -119,6 +146,10 @@ impl<R: Rule> Rule for OrNull<R> {
             Json::Null => Some(None),
             _ => self.0.read(at).map(Some),
         }
+    }
+
+    fn schema(&self) -> Value {
+        json!({ "anyOf": [self.0.schema(), { "type": "null" }] })
     }
 
     fn stand_in(&self) -> Option<R::Value> {

@@ -94,6 +94,8 @@ fn sim(at: &mut Object) -> Sim {
         steps_per_frame: at.optional("steps_per_frame", 30, Count(1, 1_000_000_000)),
         gravity: at.optional("gravity", Vec3::new(0.0, -9.8, 0.0), Vector(ANY.unit("m/s²"))),
         integrator: at.optional("integrator", Integrator::Verlet, Choice(INTEGRATORS)),
+        iterations: at.optional("iterations", 1, Count(1, 1_000_000)),
+        tolerance: at.optional("tolerance", 1e-4, Number(from_to(1e-15, 1.0))),
         precision: at.optional("precision", Precision::F64, Choice(PRECISIONS)),
         start: at.optional("start", Start::Report, Choice(STARTS)),
         damping: at.optional("damping", Damping::PerStep, Choice(DAMPINGS)),

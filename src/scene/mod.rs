@@ -21,6 +21,7 @@ mod render;
 mod report;
 mod rule;
 mod scalar;
+mod schema;
 mod source;
 mod stock;
 mod words;
@@ -30,6 +31,7 @@ use nalgebra::Vector3;
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
+pub use schema::schema;
 
 /// A point or direction in metres, world space, y up.
 pub type Vec3 = Vector3<f64>;
@@ -135,6 +137,11 @@ pub struct Sim {
     pub gravity: Vec3,
     /// The scheme that advances the positions.
     pub integrator: Integrator,
+    /// Passes over the springs in a step of [`Integrator::Xpbd`] (1..=1e6); others do not read it.
+    pub iterations: u32,
+    /// Part of the forces that [`Integrator::ImplicitEuler`] and [`Integrator::Bdf2`] may leave
+    /// unbalanced at the end of a step (1e-15..=1); others do not read it.
+    pub tolerance: f64,
     /// The arithmetic of the positions.
     pub precision: Precision,
     /// How the first step knows the velocity.
@@ -156,6 +163,12 @@ pub struct Sim {
 pub enum Integrator {
     /// Position Verlet, the report's.
     Verlet,
+    /// Extended position-based dynamics, `src/cloth/xpbd.rs`.
+    Xpbd,
+    /// Implicit Euler, `src/cloth/implicit_euler.rs`.
+    ImplicitEuler,
+    /// The second backward differentiation formula, `src/cloth/bdf2.rs`.
+    Bdf2,
 }
 
 /// The arithmetic of the positions (`sim.precision`).
@@ -163,6 +176,9 @@ pub enum Integrator {
 pub enum Precision {
     /// binary64, the report's.
     F64,
+    /// binary32 for positions, displacements and forces of [`Integrator::Verlet`], in displacement
+    /// form: `src/cloth/single.rs`.
+    F32,
 }
 
 /// How the first step knows the velocity (`sim.start`).

@@ -22,11 +22,23 @@ impl Shader {
     }
 }
 
+impl Integrator {
+    /// The name of this integrator.
+    pub fn name(self) -> &'static str {
+        INTEGRATORS.iter().find(|(_, integrator)| *integrator == self).map_or("", |(name, _)| name)
+    }
+}
+
 /// `sim.integrator`
-pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[("verlet", Integrator::Verlet)];
+pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[
+    ("verlet", Integrator::Verlet),
+    ("xpbd", Integrator::Xpbd),
+    ("implicit_euler", Integrator::ImplicitEuler),
+    ("bdf2", Integrator::Bdf2),
+];
 
 /// `sim.precision`
-pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64)];
+pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64), ("f32", Precision::F32)];
 
 /// `sim.start`
 pub(super) const STARTS: &[(&str, Start)] = &[("report", Start::Report), ("half_step", Start::HalfStep)];

@@ -3,22 +3,18 @@
 use super::{Cloth, Contact, Material, Scene, SelfCollision, Shader};
 
 /// What a scene needs. Everything that is `false` or absent here can be left out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Whether structural springs are built.
-    pub structural: bool,
-    /// Whether shearing springs are built.
-    pub shearing: bool,
-    /// Whether bending springs are built.
-    pub bending: bool,
-    /// Whether the self-collision phase runs.
-    pub self_collision: bool,
+    /// How self-collision is found; off when the phase is left out.
+    pub self_collision: SelfCollision,
     /// Whether points are tested against planes.
     pub planes: bool,
     /// Whether points are tested against spheres.
     pub spheres: bool,
-    /// Whether the stretch limit runs.
-    pub stretch_limit: bool,
+    /// Whether points are kept out of planes and spheres for certain.
+    pub kept_outside: bool,
+    /// The strain that the stretch limit leaves, if it runs.
+    pub stretch_limit: Option<f64>,
     /// What is drawn, in draw order: cloth, planes, spheres.
     pub objects: Vec<ObjectPlan>,
     /// The textures and height maps to read, each once, in order of first use.
@@ -99,15 +95,15 @@ impl Plan {
     /// The plan of `scene`.
     pub fn of(scene: &Scene) -> Self {
         let items = &mut Vec::new();
-        let structural =
-            note(items, "structural springs", spring(scene, "structural", |c| c.enable_structural));
-        let shearing = note(items, "shearing springs", spring(scene, "shearing", |c| c.enable_shearing));
-        let bending = note(items, "bending springs", spring(scene, "bending", |c| c.enable_bending));
-        let any_spring = structural || shearing || bending;
-        let self_collision = note(items, "self-collision", self_collision(scene));
+        // The springs build themselves from the same three keys of the cloth.
+        let any_spring =
+            note(items, "structural springs", spring(scene, "structural", |c| c.enable_structural))
+                | note(items, "shearing springs", spring(scene, "shearing", |c| c.enable_shearing))
+                | note(items, "bending springs", spring(scene, "bending", |c| c.enable_bending));
+        let collides_itself = note(items, "self-collision", self_collision(scene));
         let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes.len()));
         let spheres = note(items, "collision with spheres", collision(scene, "sphere", scene.spheres.len()));
-        let stretch_limit = note(items, "stretch limit", stretch_limit(scene, any_spring));
+        let limited = note(items, "stretch limit", stretch_limit(scene, any_spring));
         let drawn = drawn(scene);
         let objects = drawn.iter().map(|(name, material)| object(name, material, items)).collect();
         let [textures, environments] = images(&drawn);
@@ -115,13 +111,11 @@ impl Plan {
         let environments = environments.names("cube map", items);
         let items = std::mem::take(items);
         Self {
-            structural,
-            shearing,
-            bending,
-            self_collision,
+            self_collision: if collides_itself { scene.sim.self_collision } else { SelfCollision::Off },
             planes,
             spheres,
-            stretch_limit,
+            kept_outside: scene.sim.contact == Contact::Outside && (planes || spheres),
+            stretch_limit: scene.sim.stretch_limit.filter(|_| limited),
             objects,
             textures,
             environments,

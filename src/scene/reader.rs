@@ -4,6 +4,7 @@ use super::format::{Json, Member, Node};
 use super::nearest::did_you_mean;
 use super::report::{Finding, Report};
 use super::rule::{At, Rule};
+use super::schema::{Key, Shape};
 use super::source::Span;
 use super::words::{join, quoted, shown};
 
@@ -38,6 +39,7 @@ fn object<T>(report: &mut Report, path: &str, node: &Node, read: impl FnOnce(&mu
 impl Object<'_> {
     /// The value of a key that must be given.
     pub(super) fn required<R: Rule>(&mut self, name: &'static str, rule: R) -> R::Value {
+        self.note(name, true, || Shape::Value(rule.schema()));
         match self.find(name) {
             Some(node) => self.read(name, node, &rule),
             None => {
@@ -49,6 +51,7 @@ impl Object<'_> {
 
     /// The value of a key that may be left out.
     pub(super) fn optional<R: Rule>(&mut self, name: &'static str, default: R::Value, rule: R) -> R::Value {
+        self.note(name, false, || Shape::Value(rule.schema()));
         match self.find(name) {
             Some(node) => self.read(name, node, &rule),
             None => default,
@@ -57,24 +60,25 @@ impl Object<'_> {
 
     /// An object that may be left out, which means an empty one.
     pub(super) fn group<T>(&mut self, name: &'static str, read: impl FnOnce(&mut Object) -> T) -> Option<T> {
-        let empty = Node { span: self.span, json: Json::Object(Vec::new()) };
+        self.note(name, false, || Shape::Object);
+        let empty = self.empty();
         let path = self.join(name);
-        match self.find(name) {
-            Some(node) => object(self.report, &path, node, read),
-            None => object(self.report, &path, &empty, read),
-        }
+        let node = self.find(name).unwrap_or(&empty);
+        object(self.report, &path, node, read)
     }
 
     /// An object that may be left out.
     pub(super) fn maybe<T>(&mut self, name: &'static str, read: impl FnOnce(&mut Object) -> T) -> Option<T> {
+        let asked = self.note(name, false, || Shape::Object).then(|| self.empty());
         let path = self.join(name);
-        self.find(name).and_then(|node| object(self.report, &path, node, read))
+        self.find(name).or(asked.as_ref()).and_then(|node| object(self.report, &path, node, read))
     }
 
     /// No object, one, or a list of them.
     pub(super) fn each<T>(&mut self, name: &'static str, mut read: impl FnMut(&mut Object) -> T) -> Vec<T> {
+        let asked = self.note(name, false, || Shape::Objects).then(|| self.empty());
         let path = self.join(name);
-        let Some(node) = self.find(name) else { return Vec::new() };
+        let Some(node) = self.find(name).or(asked.as_ref()) else { return Vec::new() };
         let Json::List(items) = &node.json else {
             return object(self.report, &path, node, read).into_iter().collect();
         };
@@ -91,6 +95,18 @@ impl Object<'_> {
     /// Whether the key is given.
     pub(super) fn has(&self, name: &str) -> bool {
         self.members.iter().any(|member| member.key == name)
+    }
+
+    /// Notes the key, if the keys are asked for; whether they are.
+    fn note(&mut self, name: &'static str, required: bool, shape: impl FnOnce() -> Shape) -> bool {
+        if let Some(keys) = &mut self.report.keys {
+            keys.push(Key { object: self.path.into(), name, required, shape: shape() });
+        }
+        self.report.keys.is_some()
+    }
+
+    fn empty(&self) -> Node {
+        Node { span: self.span, json: Json::Object(Vec::new()) }
     }
 
     fn read<R: Rule>(&mut self, name: &str, node: &Node, rule: &R) -> R::Value {

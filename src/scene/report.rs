@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::render;
+use super::schema::Key;
 use super::source::{Source, Span};
 use crate::error::{Diagnostic, Error};
 
@@ -66,6 +67,8 @@ pub(super) struct Report {
     pub(super) sources: Vec<Source>,
     errors: Vec<Diagnostic>,
     warnings: Vec<Diagnostic>,
+    /// Every key that the reader knows, if they are asked for instead of a scene.
+    pub(super) keys: Option<Vec<Key>>,
 }
 
 impl Report {

@@ -1,5 +1,7 @@
 //! What a value must be: small rules, composed in `fields.rs` into one line for each key.
 
+use serde_json::Value;
+
 use super::format::{Json, Node};
 use super::report::{Finding, Report};
 use super::words::{quoted, shown};
@@ -19,6 +21,8 @@ pub(super) trait Rule {
     fn words(&self) -> String;
     /// The value; nothing, after a report, if it is not allowed.
     fn read(&self, at: &mut At) -> Option<Self::Value>;
+    /// The same as a JSON schema; it may let pass what only the check of the whole scene refuses.
+    fn schema(&self) -> Value;
     /// Stands in for a value that is wrong or missing, in a scene that is thrown away.
     fn stand_in(&self) -> Self::Value;
 }

@@ -1,5 +1,7 @@
 //! Rules for single values.
 
+use serde_json::{Value, json};
+
 use super::format::Json;
 use super::nearest::did_you_mean;
 use super::range::Range;
@@ -25,6 +27,10 @@ impl Rule for Number {
         }
     }
 
+    fn schema(&self) -> Value {
+        json!({ "type": "number", "minimum": self.0.min, "maximum": self.0.max, "description": self.words() })
+    }
+
     fn stand_in(&self) -> f64 {
         self.0.min
     }
@@ -47,6 +53,10 @@ impl Rule for Count {
             Some(count) if (self.0..=self.1).contains(&count) => Some(count),
             _ => at.not_allowed("scene::out_of_range", &self.words(), ""),
         }
+    }
+
+    fn schema(&self) -> Value {
+        json!({ "type": "integer", "minimum": self.0, "maximum": self.1 })
     }
 
     fn stand_in(&self) -> u32 {
@@ -79,6 +89,10 @@ impl Rule for Flag {
         }
     }
 
+    fn schema(&self) -> Value {
+        json!({ "type": "boolean" })
+    }
+
     fn stand_in(&self) -> bool {
         false
     }
@@ -102,6 +116,11 @@ impl<T: Copy> Rule for Choice<T> {
             let help = did_you_mean(text, self.0.iter().map(|(name, _)| *name)).unwrap_or_default();
             at.not_allowed("scene::unknown_value", &self.words(), &help)
         })
+    }
+
+    fn schema(&self) -> Value {
+        let names: Vec<&str> = self.0.iter().map(|(name, _)| *name).collect();
+        json!({ "enum": names })
     }
 
     fn stand_in(&self) -> T {
@@ -128,6 +147,11 @@ impl<T: Copy> Rule for Coded<T> {
         known.map(|(_, value)| *value).or_else(|| at.not_allowed("scene::unknown_value", &self.words(), ""))
     }
 
+    fn schema(&self) -> Value {
+        let codes: Vec<i64> = self.0.iter().map(|(code, _)| *code).collect();
+        json!({ "enum": codes })
+    }
+
     fn stand_in(&self) -> T {
         self.0[0].1
     }
@@ -151,6 +175,10 @@ impl Rule for Name {
             return Some(text.clone());
         }
         at.not_allowed("scene::bad_name", &self.words(), "give the name without folder and ending")
+    }
+
+    fn schema(&self) -> Value {
+        json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$", "description": self.words() })
     }
 
     fn stand_in(&self) -> String {

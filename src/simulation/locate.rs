@@ -1,6 +1,6 @@
 //! Where a frame went wrong: found by making its steps once more and looking after each.
 
-use super::State;
+use super::state::State;
 use crate::cloth::grid::Grid;
 use crate::cloth::guard::{RANGE, first_lost};
 use crate::cloth::ledger::Recorder;
@@ -32,7 +32,9 @@ pub(super) fn error(mut state: State, steps: u64, steps_per_frame: u64, guarded:
 
 /// Moves `state` on to the first step that breaks a check, at most `steps`; its number from 1.
 fn first_bad_step(state: &mut State, steps: u64, guarded: bool) -> Result<u64> {
-    state.recorder = Some(Recorder::new(state.x.len())?);
+    if state.recorder.is_none() {
+        state.recorder = Some(Recorder::new(state.x.len(), false)?);
+    }
     for step in 1..steps {
         state.step(&mut Default::default(), &mut Default::default());
         if !state.is_sound(guarded) {
@@ -49,14 +51,22 @@ impl State {
         if let Some(point) = first_lost(&self.x) {
             return format!("{} is lost (no number, or beyond {RANGE:e} m)", name(point, self.grid));
         }
-        let energy = self.motion_and_height();
-        let found = energy.kinetic + energy.gravitational;
-        let limit = self.budget.limit(energy);
+        let energy = self.watched_energy();
         let fastest = fastest_point(&self.x, &self.last).map_or(0, |(point, _)| point);
         let point = name(fastest, self.grid);
-        format!(
-            "motion and height hold {found:.4e} J, more than the {limit:.4e} J that there can be, most in {point},"
-        )
+        let what = if energy.spring > 0.0 { "motion, height and springs" } else { "motion and height" };
+        match &self.recorder {
+            Some(Recorder { ledger, judged: true, .. }) if !self.budget.is_broken(energy) => format!(
+                "springs and gravity have put in {:.4e} J, more than the {:.4e} J that they can, fastest is {point},",
+                ledger.gravity + ledger.springs,
+                self.budget.exchange_limit(energy),
+            ),
+            _ => format!(
+                "{what} hold {:.4e} J, more than the {:.4e} J that there can be, most in {point},",
+                energy.total(),
+                self.budget.limit(energy),
+            ),
+        }
     }
 
     /// The spring that is stretched most, and the phase that put in most energy since the frame began.
@@ -70,7 +80,7 @@ impl State {
                 spring.stretch
             );
         }
-        let entries = self.recorder.as_ref().map(|recorder| recorder.ledger.entries());
+        let entries = self.recorder.as_ref().map(Recorder::since_frame_start);
         let finite = entries.into_iter().flatten().filter(|(_, energy)| energy.is_finite());
         if let Some((phase, energy)) = finite.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
             text += &format!("; most energy came from {phase}, {energy:.4e} J since the frame began");

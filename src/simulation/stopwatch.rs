@@ -5,10 +5,12 @@ use std::time::Instant;
 /// Wall time spent in each phase since the start, in nanoseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Timings {
-    /// Phase 1: weight and springs.
+    /// Phase 1: weight and springs, under Verlet's scheme.
     pub forces: u64,
     /// Phase 2: Verlet's scheme.
     pub verlet: u64,
+    /// Phases 1 and 2 of any other integrator.
+    pub solver: u64,
     /// Phase 3: close points of the cloth.
     pub self_collision: u64,
     /// Phase 4: planes and spheres.

@@ -55,6 +55,17 @@ fn a_wrong_command_line_is_2() {
         &["render", scene, "out.png", "--depth", "out.png"],
         &["render", scene, "out.png", "--set", "cloth.ks"],
         &["render", scene, "-", "--stats"],
+        &["animate", scene],
+        &["animate", scene, "-"],
+        &["animate", scene, "out.png"],
+        &["animate", scene, "out.webm"],
+        &["animate", scene, "%d/out.png"],
+        &["animate", scene, "out.apng", "--frames", "3..3"],
+        &["animate", scene, "out.apng", "--frames", "3"],
+        &["animate", scene, "out.apng", "--fps", "0"],
+        &["animate", scene, "out.apng", "--fps", "1001"],
+        &["animate", scene, "out.apng", "--fps", "29.97"],
+        &["animate", scene, "out.gif", "--fps", "51"],
         &["simulate", scene, "--positions", "small.json"],
         &["simulate", scene, "--hash", "--bench"],
         &["simulate", scene, "--frames", "1", "--time", "1"],
@@ -63,7 +74,12 @@ fn a_wrong_command_line_is_2() {
         &["compare", scene],
         &["compare", scene, "."],
         &["compare", "a", "b", "--budget", "0:1"],
+        &["compare-positions", scene],
+        &["compare-positions", scene, "p", "--tolerance", "-1"],
+        &["compare-positions", scene, "p", "--frame", "1", "--frames", "0..1"],
         &["check"],
+        &["completions", "tcsh"],
+        &["man", "frobnicate"],
         &["info", scene, "-q", "-v"],
         &["info", scene, "--color", "red"],
     ] {
@@ -88,6 +104,8 @@ fn no_command_is_2_and_shows_the_help() {
     let run = Scratch::new().run(&[]);
     assert_eq!((run.code, run.stdout.len()), (Some(2), 0));
     assert!(run.stderr.contains("Usage: drape"), "{}", run.stderr);
+    assert!(run.stderr.starts_with("A reference cloth simulator"), "{}", run.stderr);
+    assert!(!run.stderr.contains("error:"), "{}", run.stderr);
 }
 
 #[test]
@@ -129,6 +147,7 @@ fn nothing_to_do_is_4() {
     let scratch = Scratch::new();
     fs::write(scratch.path("bare.json"), "{}").unwrap();
     fails(&scratch, &["export", "bare.json", "out.obj"], 4, "nothing");
+    fails(&scratch, &["animate", "small.json", "out.gif", "--set", "render.time=0"], 4, "nothing");
     fs::create_dir(scratch.path("a")).unwrap();
     fs::create_dir(scratch.path("b")).unwrap();
     fails(&scratch, &["compare", "a", "b"], 4, "nothing");
@@ -142,6 +161,7 @@ fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
         &["render", "small.json", "out.png"][..],
         &["simulate", "small.json", "--positions", "out"],
         &["export", "small.json", "out.obj"],
+        &["animate", "small.json", "out.apng"],
     ] {
         let (error, _) = fails(&scratch, &[command, &stiff].concat(), 5, "unstable");
         assert!(error["error"].as_str().unwrap().contains("before the first step: dt·ω = "), "{error}");
@@ -201,6 +221,10 @@ fn a_file_that_cannot_be_read_is_6() {
         &["export", "no.json", "out.obj"],
         &["simulate", "small.json", "--patch", "no.json"],
         &["compare", "no.png", "no.png"],
+        &["compare", ".", "no.png"],
+        &["compare-positions", "small.json", "no.raw"],
+        &["compare-positions", "small.json", "small.json"],
+        &["compare", "no.folder", "."],
         &["compare", "small.json", "small.json"],
     ] {
         let (error, _) = fails(&scratch, arguments, 6, "io");
@@ -225,6 +249,9 @@ fn a_place_that_cannot_be_written_is_6_before_anything_is_simulated() {
             let (error, _) = fails(&scratch, &[command, &stiff].concat(), 6, "io");
             assert!(error["error"].as_str().unwrap().contains(place), "{error}");
         }
+    }
+    for out in ["no/a.gif", "no/no/%d.png", "small.json/a.apng", "small.json/%d.png"] {
+        fails(&scratch, &[&["animate", "small.json", out], &stiff[..]].concat(), 6, "io");
     }
 }
 
@@ -294,6 +321,33 @@ fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
 }
 
 #[test]
+fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("set")).expect("a folder");
+    let texture = ["--set", "material.shader=texture", "--set", "material.texture=granite"];
+    let stiff = ["--set", "cloth.ks=1e12"];
+    for (arguments, codes, says) in [
+        (&[][..], &[][..], "valid"),
+        (&["--set", "material.texture=granite"], &[], "valid"),
+        (&texture, &["check::texture"], "granite"),
+        (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "texture_1"),
+        (&["--set", "material.shader=mirror", "--textures", "set"], &["check::texture"], "posx"),
+        (&["--set", "material.shader=texture"], &[], "valid"),
+        (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
+        (&stiff, &["check::unstable"], "dt·ω"),
+        (&[&texture[..], &stiff].concat(), &["check::texture", "check::unstable"], "granite"),
+    ] {
+        let arguments = [&["check", "small.json"], arguments].concat();
+        let text = String::from_utf8(scratch.succeed(&arguments)).expect("text");
+        assert!(text.contains(says) && text.contains("small.json: valid"), "{arguments:?}: {text}");
+        let object = scratch.json(&[&arguments[..], &["--json"]].concat());
+        let warnings = object["files"][0]["warnings"].as_array().expect("a list").iter();
+        let found: Vec<_> = warnings.map(|warning| warning["code"].as_str().expect("a code")).collect();
+        assert_eq!(found, codes, "{arguments:?}");
+    }
+}
+
+#[test]
 fn a_picture_does_not_replace_a_texture_that_it_may_read() {
     let scratch = Scratch::new();
     fs::create_dir_all(scratch.path("set/cube")).expect("folders");
@@ -303,6 +357,10 @@ fn a_picture_does_not_replace_a_texture_that_it_may_read() {
         fails(&scratch, &arguments, 2, "usage");
         assert_eq!(scratch.read(texture), b"not looked into");
     }
+    // One of the numbered pictures is the texture.
+    let arguments =
+        ["animate", "small.json", "set/texture_%d.png", "--textures", "set", "--shader", "texture"];
+    fails(&scratch, &arguments, 2, "usage");
 }
 
 #[test]

@@ -170,6 +170,29 @@ fn export_tells_programs_what_it_wrote() {
     );
 }
 
+/// An integrator without a largest step says so, is not refused, and is stopped when it gains energy.
+#[test]
+fn only_verlets_scheme_has_a_largest_step() {
+    let scratch = Scratch::new();
+    let path = scene("pinned2.json");
+    let coarse = ["--set", "sim.steps_per_frame=1", "--set", "cloth.ks=50000"];
+    let run =
+        |more: &[&str]| scratch.run(&[&["simulate", &path, "--frames", "20"], &coarse[..], more].concat());
+    let verlet = run(&[]);
+    assert!(verlet.code == Some(5) && verlet.stderr.contains("unstable before the first step"));
+    let xpbd = ["--set", "sim.integrator=xpbd"];
+    let stopped = run(&xpbd);
+    assert_eq!(stopped.code, Some(5), "{}", stopped.stderr);
+    assert!(stopped.stderr.contains("motion, height and springs hold"), "{}", stopped.stderr);
+    assert_eq!(run(&[&xpbd[..], &["--allow-unstable"]].concat()).code, Some(0));
+    let info = scratch.json(&[&["info", &path, "--json"], &xpbd[..]].concat());
+    assert_eq!(
+        (&info["cloth"]["integrator"], &info["cloth"]["stable"]),
+        (&"xpbd".into(), &"no step bound".into())
+    );
+    assert!(info["cloth"].get("dt_omega_rest").is_none());
+}
+
 #[test]
 fn info_counts_what_a_simulation_then_uses() {
     let scratch = Scratch::new();
@@ -307,6 +330,50 @@ fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
     let damping: f64 = rows.iter().map(|row| row[column("by_damping")]).sum();
     assert!((summary["ledger"]["damping"].as_f64().unwrap() - damping).abs() < 1e-8 * damping.abs());
     assert_eq!(summary["energy"]["kinetic"].as_f64().unwrap(), rows[40][column("kinetic")]);
+}
+
+/// A run that blows up on the way leaves the table of its good frames, and nothing else.
+#[test]
+fn a_run_that_fails_leaves_its_table_up_to_the_last_good_frame() {
+    let scratch = Scratch::new();
+    let unstable = ["--set", "sim.steps_per_frame=1", "--set", "sim.stretch_limit=null", "--allow-unstable"];
+    let outputs = ["--csv", "out.csv", "--positions", "out", "--json", "--set", "cloth.density=25"];
+    let run =
+        scratch.run(&[&["simulate", "small.json", "--frames", "2000"], &unstable[..], &outputs].concat());
+    assert_eq!(run.code, Some(5), "{}", run.stderr);
+    let message = run.error()["error"].as_str().unwrap().to_owned();
+    let last_good: usize = message.rsplit(' ').next().unwrap().parse().unwrap();
+    let text = String::from_utf8(scratch.read("out.csv")).unwrap();
+    assert!(last_good > 10 && text.lines().count() == last_good + 2, "a header, frames 0 to {last_good}");
+    assert!(text.lines().all(|line| line.split(',').count() == 15) && text.ends_with('\n'), "whole rows");
+    assert!(!scratch.path("out").exists() && run.stdout.is_empty(), "nothing else is written");
+
+    let moving = ["simulate", "small.json", "--until-rest", "--frames", "3", "--csv", "moving.csv"];
+    assert_eq!(scratch.run(&moving).code, Some(1));
+    assert_eq!(String::from_utf8(scratch.read("moving.csv")).unwrap().lines().count(), 5);
+    let refused = ["simulate", "small.json", "--set", "cloth.ks=1e12", "--csv", "refused.csv"];
+    assert_eq!(scratch.run(&refused).code, Some(5));
+    assert!(!scratch.path("refused.csv").exists(), "no frame, no table");
+}
+
+/// The summary has a ledger if it was asked for, or if one was kept because the cloth may blow up.
+#[test]
+fn the_summary_tells_what_each_phase_put_in_when_asked() {
+    let scratch = Scratch::new();
+    let run = |more: &[&str]| {
+        scratch.json(&[&["simulate", "small.json", "--frames", "40", "--json"], more].concat())
+    };
+    let (plain, asked) = (run(&[]), run(&["--ledger"]));
+    assert!(plain.get("ledger").is_none(), "{plain}");
+    assert!(asked["ledger"]["damping"].as_f64().unwrap() < -1.0, "{asked}");
+    assert_eq!(plain["state_hash"], asked["state_hash"], "it moves as without");
+    let text = String::from_utf8(scratch.succeed(&["simulate", "small.json", "--frames", "40", "--ledger"]))
+        .unwrap();
+    assert!(text.contains("by damping"), "{text}");
+    // Stable at rest, perhaps not when deformed.
+    let doubtful = ["--set", "cloth.ks=2.2e7", "--frames", "1"];
+    let kept = scratch.json(&[&["simulate", "small.json", "--json"], &doubtful[..]].concat());
+    assert!(kept.get("ledger").is_some(), "{kept}");
 }
 
 /// Rest ends a run early; a limit that is too short is exit code 1 with what still moves.

@@ -87,6 +87,8 @@ pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
             steps_per_frame: 30,
             gravity: Vec3::new(0.0, -9.8, 0.0),
             integrator: Integrator::Verlet,
+            iterations: 1,
+            tolerance: 1e-4,
             precision: Precision::F64,
             start: Start::Report,
             damping: Damping::PerStep,

@@ -128,7 +128,19 @@ pub(crate) fn varyings<L: Lane + 'static>(
     let mut seen = seen.into_inner().unwrap();
     assert!(seen.len() >= picture.stats.fragments as usize, "each fragment is shaded");
     seen.truncate(picture.stats.fragments as usize);
-    (seen, picture)
+    (row_by_row(canvas, &picture, seen), picture)
+}
+
+/// What was seen in a picture of one tile, from the order of shading, which is by blocks of 4 × 2
+/// pixels, to row by row.
+fn row_by_row(canvas: Canvas, picture: &Picture, seen: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    let mut pixels: Vec<[u32; 2]> =
+        canvas.pixels().zip(&picture.ids).filter(|&(_, &id)| id != 0).map(|(pixel, _)| pixel).collect();
+    assert_eq!(pixels.len(), seen.len(), "a fragment a pixel");
+    pixels.sort_by_key(|&[x, y]| (y / 2, x / 4, y, x));
+    let mut placed: Vec<_> = pixels.into_iter().zip(seen).collect();
+    placed.sort_by_key(|&([x, y], _)| (y, x));
+    placed.into_iter().map(|(_, seen)| seen).collect()
 }
 
 /// The text picture of what is drawn, rows from the top: `#` where something is.

@@ -54,28 +54,29 @@ cube maps: left out: no shader reads one";
 #[test]
 fn phases_are_left_out_when_nothing_needs_them() {
     let all = plan(TWO_BALLS, &[]);
-    assert!(all.structural && !all.shearing && all.bending);
-    assert!(all.self_collision && !all.planes && all.spheres && all.stretch_limit);
+    assert!(!all.planes && all.spheres && !all.kept_outside);
+    assert_eq!((all.self_collision, all.stretch_limit), (SelfCollision::SameBox, Some(0.1)));
+    assert!(plan(TWO_BALLS, &["sim.contact=outside"]).kept_outside);
 
     let thin = plan(TWO_BALLS, &["cloth.thickness=0"]);
-    assert!(!thin.self_collision);
+    assert_eq!(thin.self_collision, SelfCollision::Off);
     assert_eq!(line(&thin, "self-collision").reason, "cloth.thickness is 0");
     let off = plan(TWO_BALLS, &["sim.self_collision=off"]);
-    assert!(!off.self_collision);
+    assert_eq!(off.self_collision, SelfCollision::Off);
     assert_eq!(line(&off, "self-collision").reason, "sim.self_collision is off");
 
-    assert!(!plan(TWO_BALLS, &["sim.stretch_limit=null"]).stretch_limit);
+    assert_eq!(plan(TWO_BALLS, &["sim.stretch_limit=null"]).stretch_limit, None);
     let loose = plan(TWO_BALLS, &["cloth.enable_structural=false", "cloth.enable_bending=false"]);
-    assert!(!loose.stretch_limit);
+    assert_eq!(loose.stretch_limit, None);
     assert_eq!(line(&loose, "stretch limit").reason, "there are no springs");
 }
 
 #[test]
 fn without_a_cloth_nothing_is_simulated() {
     let text = r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}}"#;
-    let plan = plan(text, &[]);
-    assert!(!plan.structural && !plan.shearing && !plan.bending && !plan.stretch_limit);
-    assert!(!plan.self_collision && !plan.planes && !plan.spheres);
+    let plan = plan(text, &["sim.contact=outside"]);
+    assert_eq!((plan.self_collision, plan.stretch_limit), (SelfCollision::Off, None));
+    assert!(!plan.planes && !plan.spheres && !plan.kept_outside);
     assert_eq!(line(&plan, "collision with spheres").reason, "the scene has no cloth");
     assert_eq!(plan.objects.len(), 1);
     assert_eq!(plan.objects[0].name, "sphere");

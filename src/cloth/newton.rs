@@ -1,0 +1,125 @@
+//! Newton's method for the end of an implicit step (Baraff and Witkin 1998 take one round of it):
+//! the positions x with `inertia (x - target) = f(x)`, f the weight and the springs at x.
+//!
+//! They are where `inertia |x - target|² / 2` and the energies of springs and height together are
+//! least. Each round goes along the solution of the linear system, by half as often as it must
+//! until it does not lead up again by more than half of the slope that it started down.
+
+use super::conjugate_gradients::{ConjugateGradients, Matrix, add, dot, length};
+use super::forces::Forces;
+use super::grid::Pins;
+use super::springs::Springs;
+use super::stiffness::Stiffness;
+use super::{Constants, Counters, Points, filled};
+use crate::error::Result;
+
+/// Most rounds in a step.
+const ROUNDS: usize = 50;
+
+/// Most halvings in a round.
+const HALVINGS: usize = 20;
+
+/// How much of its residual a round of Newton's method may leave to the next.
+const FORCING: f64 = 0.01;
+
+/// Part of the positions' length that a round must move to be worth another.
+const ROUNDING: f64 = 1e-15;
+
+/// The solver, and the two numbers that make an integrator of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Newton {
+    /// Where the points would be without forces, in metres.
+    pub(crate) target: Points,
+    /// Its inertia is the force per distance from the target: the mass over the square of a time.
+    pub(crate) matrix: Matrix,
+    tolerance: f64,
+    forces: Forces,
+    residual: Points,
+    linear: ConjugateGradients,
+}
+
+impl Newton {
+    /// The solver for `springs` that leaves at most the part `tolerance` of the forces unbalanced:
+    /// the length of the residual over that of the weights and the springs' forces, over all points.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::Scene`] when it does not fit in memory.
+    pub(crate) fn new(tolerance: f64, springs: &Springs) -> Result<Self> {
+        let points = springs.grid.len();
+        Ok(Self {
+            target: Points::zeros(points)?,
+            matrix: Matrix { inertia: filled(points, 1.0)?, stiffness: Stiffness::new(springs)? },
+            tolerance,
+            forces: Forces::new(springs)?,
+            residual: Points::zeros(points)?,
+            linear: ConjugateGradients::new(points)?,
+        })
+    }
+
+    /// Moves the unpinned points from a guess `x` to the solution.
+    pub(crate) fn solve(
+        &mut self,
+        x: &mut Points,
+        springs: &Springs,
+        pins: &Pins,
+        constants: &Constants,
+        counters: &mut Counters,
+    ) {
+        let mut goal = self.balance(x, springs, pins, constants, counters);
+        let (mut rounds, mut moved) = (0, f64::INFINITY);
+        // A residual that is no number ends it too.
+        while rounds < ROUNDS && length(&self.residual) > goal && moved > ROUNDING * length(x) {
+            rounds += 1;
+            self.matrix.stiffness.update(x, springs);
+            let target = (0.5 * goal).max(FORCING * length(&self.residual));
+            let Self { matrix, linear, residual, .. } = self;
+            let products = linear.solve(residual, target, matrix, springs, pins) as u64;
+            counters.springs_evaluated += products * springs.len() as u64;
+            goal = self.go(x, springs, pins, constants, counters);
+            moved = length(&self.linear.solution);
+        }
+    }
+
+    /// Moves the points along the solution of the linear system; the goal where they end.
+    fn go(
+        &mut self,
+        x: &mut Points,
+        springs: &Springs,
+        pins: &Pins,
+        constants: &Constants,
+        counters: &mut Counters,
+    ) -> f64 {
+        let slope = dot(&self.residual, &self.linear.solution);
+        let mut part = 1.0;
+        add(x, part, &self.linear.solution);
+        let mut goal = self.balance(x, springs, pins, constants, counters);
+        let mut halvings = 0;
+        while halvings < HALVINGS && dot(&self.residual, &self.linear.solution) < -0.5 * slope {
+            halvings += 1;
+            part *= 0.5;
+            add(x, -part, &self.linear.solution);
+            goal = self.balance(x, springs, pins, constants, counters);
+        }
+        goal
+    }
+
+    /// Computes the residual at `x`, in N; how long it may be.
+    fn balance(
+        &mut self,
+        x: &Points,
+        springs: &Springs,
+        pins: &Pins,
+        constants: &Constants,
+        counters: &mut Counters,
+    ) -> f64 {
+        let weight = constants.weight;
+        self.forces.compute(x, springs, weight.into(), counters);
+        let (mut squares, forces) = (0.0, self.forces.sum());
+        for p in pins.free.iter().cloned().flatten() {
+            let force = forces.get(p);
+            self.residual.set(p, force - (x.get(p) - self.target.get(p)) * self.matrix.inertia[p]);
+            squares += (force - weight).norm_squared() + weight.norm_squared();
+        }
+        self.tolerance * squares.sqrt()
+    }
+}

@@ -1,0 +1,245 @@
+//! The matrix of runs: method × steps per second × stiffness.
+
+use std::path::PathBuf;
+
+use crate::cloth::Constants;
+use crate::cloth::stability::Stability;
+use crate::error::{Error, Kind, Result};
+use crate::scene::{self, Cloth, Overrides, Scene};
+
+/// How a cloth can be moved: a name, and what it changes in the model.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Method {
+    /// Short name.
+    pub name: &'static str,
+    /// The changes, as `--set` takes them, after those of [`MODEL`].
+    pub sets: &'static [&'static str],
+}
+
+/// The differential equation that every method approaches: what else a scene asks for has no limit
+/// as the step shrinks (the stretch limit moves springs a little further in every step, damping
+/// per step grows with the number of steps, and boxes of self-collision depend on rounding).
+pub const MODEL: [&str; 6] = [
+    "sim.integrator=verlet",
+    "sim.precision=f64",
+    "sim.start=half_step",
+    "sim.damping=per_second",
+    "sim.stretch_limit=null",
+    "sim.self_collision=off",
+];
+
+/// The methods; the first is also the reference's.
+pub const METHODS: &[Method] = &[
+    Method { name: "Verlet, half-step start", sets: &[] },
+    Method { name: "Verlet, report start", sets: &["sim.start=report"] },
+    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"] },
+    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"] },
+    Method {
+        name: "as published",
+        sets: &[
+            "sim.start=report",
+            "sim.damping=per_step",
+            "sim.stretch_limit=0.1",
+            "sim.self_collision=same_box",
+        ],
+    },
+];
+
+/// A scene file and changes to it, loaded anew for each cell of the matrix.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The scene file.
+    pub path: PathBuf,
+    /// Changes from outside, before those of the cells.
+    pub overrides: Overrides,
+}
+
+impl Source {
+    /// The scene with `sets` as the last changes.
+    ///
+    /// # Errors
+    /// As [`scene::load`].
+    pub fn scene(&self, sets: &[String]) -> Result<Scene> {
+        let mut overrides = self.overrides.clone();
+        overrides.sets.extend_from_slice(sets);
+        Ok(scene::load(&self.path, &overrides)?.scene)
+    }
+}
+
+/// How much is run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extent {
+    /// When positions are compared, in tenths of a second, ascending.
+    pub tenths: Vec<u32>,
+    /// Parts of the scene's density: each is a panel of another stiffness over mass.
+    pub densities: Vec<f64>,
+    /// Steps per second as multiples of the stable rate.
+    pub rates: Vec<f64>,
+    /// Most springs to be computed in one run; cells that need more are left out.
+    pub most_springs: f64,
+    /// Most springs to be computed in one run of a reference.
+    pub most_reference: f64,
+    /// How often each run is timed.
+    pub repeats: usize,
+    /// Wall time after which a run is not repeated, in seconds.
+    pub patience: f64,
+    /// Width of the pictures in pixels.
+    pub picture_width: u32,
+    /// Latitude counts of drawn spheres; longitudes are as many.
+    pub resolutions: Vec<u32>,
+}
+
+impl Extent {
+    /// The full study: under 20 minutes for a cloth of 50 × 50 points on two cores.
+    pub fn full() -> Self {
+        Self {
+            tenths: vec![1, 2, 5],
+            densities: vec![1.0, 1e-3, 1e-5],
+            rates: vec![0.5, 0.9, 1.02, 1.5, 2.0, 4.0, 8.0],
+            most_springs: 1.5e9,
+            most_reference: 5e10,
+            repeats: 3,
+            patience: 6.0,
+            picture_width: 512,
+            resolutions: vec![16, 40, 128],
+        }
+    }
+
+    /// A small one: under two minutes for the same.
+    pub fn quick() -> Self {
+        Self {
+            tenths: vec![1, 2],
+            densities: vec![1.0, 1e-3],
+            rates: vec![0.5, 1.02, 2.0, 4.0],
+            most_springs: 5e8,
+            most_reference: 1e10,
+            repeats: 3,
+            patience: 1.5,
+            picture_width: 256,
+            resolutions: vec![16, 128],
+        }
+    }
+
+    /// The last moment, in tenths of a second.
+    pub fn last(&self) -> u32 {
+        self.tenths.last().copied().unwrap_or(0)
+    }
+}
+
+/// The cells of one stiffness.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Mass per area, in kg/m².
+    pub density: f64,
+    /// Stiffness of a structural spring over the mass of a point, in 1/s².
+    pub k_over_m: f64,
+    /// Steps per second that are stable in every configuration.
+    pub stable_rate: f64,
+    /// The cells, method by method, in order of their steps.
+    pub cells: Vec<Cell>,
+    /// Steps per second of the reference's first run: the most of any cell.
+    pub finest: u32,
+    /// Changes that make the reference of the scene, but for its steps.
+    pub sets: Vec<String>,
+}
+
+/// One run of the matrix.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Number of the method in [`METHODS`].
+    pub method: usize,
+    /// Steps per second.
+    pub rate: u32,
+    /// The scene to run.
+    pub scene: Scene,
+}
+
+/// The panels of `source`; those whose reference would take too long have no cells.
+///
+/// # Errors
+/// [`Kind::Nothing`] when the scene has no cloth; otherwise as [`Source::scene`].
+pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
+    let scene = source.scene(&[])?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth to be studied"));
+    };
+    extent.densities.iter().map(|part| panel(source, &scene, cloth.density * part, extent)).collect()
+}
+
+fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Result<Panel> {
+    let mut sets: Vec<String> = MODEL.iter().map(ToString::to_string).collect();
+    sets.push(format!("cloth.density={density:?}"));
+    let scene = source.scene(&sets)?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Internal, "the cloth is gone"));
+    };
+    let mass = Constants::new(cloth, &scene.sim).mass;
+    let stable_rate = (0.5 * Stability::new(cloth, &scene.sim)?.omega_safe).max(50.0);
+    let rates = rates(stock, stable_rate, cloth, extent);
+    let mut panel = Panel {
+        density,
+        k_over_m: cloth.ks / mass,
+        stable_rate,
+        cells: Vec::new(),
+        finest: rates.last().copied().unwrap_or(0),
+        sets,
+    };
+    if f64::from(panel.finest) < stable_rate
+        || springs_in(cloth, panel.finest, extent) * 16.0 > extent.most_reference
+    {
+        return Ok(panel);
+    }
+    for (number, method) in METHODS.iter().enumerate() {
+        for &rate in &rates {
+            let changes = method.sets.iter().map(ToString::to_string).chain(clock(stock.sim.fps, rate));
+            let scene = source.scene(&panel.sets.iter().cloned().chain(changes).collect::<Vec<_>>())?;
+            panel.cells.push(Cell { method: number, rate, scene });
+        }
+    }
+    Ok(panel)
+}
+
+/// Springs that a run of `rate` steps per second computes: about six for each point and step.
+fn springs_in(cloth: &Cloth, rate: u32, extent: &Extent) -> f64 {
+    let points = (cloth.num_width_points * cloth.num_height_points) as f64;
+    6.0 * points * f64::from(rate) * 0.1 * f64::from(extent.last())
+}
+
+/// Steps per second around the stable rate and the scene's own, ascending; all are whole tens, and
+/// multiples of the scene's frames where those are.
+fn rates(stock: &Scene, stable: f64, cloth: &Cloth, extent: &Extent) -> Vec<u32> {
+    let quantum = quantum(stock.sim.fps);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0; saturates")]
+    let rounded = |rate: f64| ((rate / f64::from(quantum)).ceil() as u32).saturating_mul(quantum);
+    let own = stock.sim.fps * f64::from(stock.sim.steps_per_frame);
+    let mut rates: Vec<u32> = extent.rates.iter().map(|part| rounded(part * stable)).collect();
+    rates.extend(Some(rounded(own)).filter(|&rate| f64::from(rate) == own));
+    rates.retain(|&rate| springs_in(cloth, rate, extent) <= extent.most_springs);
+    rates.sort_unstable();
+    rates.dedup();
+    rates
+}
+
+/// What steps per second are a multiple of: the frames per second if those are whole tens, else 10.
+fn quantum(fps: f64) -> u32 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
+    if (10.0..=1000.0).contains(&fps) && fps % 10.0 == 0.0 { fps as u32 } else { 10 }
+}
+
+/// The changes that make a scene of `fps` frames per second run at `rate` steps per second.
+pub(super) fn clock(fps: f64, rate: u32) -> [String; 2] {
+    let frames = Some(quantum(fps)).filter(|frames| rate.is_multiple_of(*frames)).unwrap_or(10);
+    [format!("sim.fps={frames}"), format!("sim.steps_per_frame={}", rate / frames)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_whole_tens_and_keep_the_frames_of_the_scene() {
+        assert_eq!(clock(90.0, 2700), ["sim.fps=90", "sim.steps_per_frame=30"]);
+        assert_eq!(clock(90.0, 60), ["sim.fps=10", "sim.steps_per_frame=6"]);
+        assert_eq!(clock(24.0, 240), ["sim.fps=10", "sim.steps_per_frame=24"]);
+    }
+}

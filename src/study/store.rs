@@ -1,0 +1,96 @@
+//! Finished results, one file each, named by what they depend on: a study that was stopped goes on
+//! where it was, and one whose scene or matrix has changed finds nothing that is out of date.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, Kind, Result};
+use crate::output::atomic;
+
+/// A folder of finished results, and how many were made and found.
+#[derive(Debug)]
+pub struct Store {
+    folder: PathBuf,
+    made: AtomicU64,
+    found: AtomicU64,
+}
+
+impl Store {
+    /// The store in `folder`, which is made if it is not there.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when that fails.
+    pub fn new(folder: &Path) -> Result<Self> {
+        fs::create_dir_all(folder).map_err(|e| {
+            Error::new(Kind::Io, format!("cannot make the folder `{}`: {e}", folder.display()))
+        })?;
+        Ok(Self { folder: folder.to_owned(), made: AtomicU64::new(0), found: AtomicU64::new(0) })
+    }
+
+    /// How many runs were made, and how many results were found.
+    pub fn counts(&self) -> [u64; 2] {
+        [&self.made, &self.found].map(|count| count.load(Ordering::Relaxed))
+    }
+
+    /// The result called `key`: the one that is kept, else that of `run`, which is then kept.
+    ///
+    /// # Errors
+    /// Those of `run`, and [`Kind::Io`] when the result cannot be written.
+    pub(super) fn get_or<T: Serialize + DeserializeOwned>(
+        &self,
+        key: u64,
+        run: impl FnOnce() -> Result<T>,
+    ) -> Result<T> {
+        if let Some(kept) = self.get(key) {
+            self.found.fetch_add(1, Ordering::Relaxed);
+            return Ok(kept);
+        }
+        let result = run()?;
+        self.put(key, &result)?;
+        Ok(result)
+    }
+
+    /// The result called `key`, if a readable one is kept.
+    pub(super) fn get<T: DeserializeOwned>(&self, key: u64) -> Option<T> {
+        serde_json::from_slice(&fs::read(self.path(key)).ok()?).ok()
+    }
+
+    /// Notes that a kept result was used.
+    pub(super) fn note_found(&self) {
+        self.found.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Keeps a result that was just made.
+    pub(super) fn put(&self, key: u64, result: &impl Serialize) -> Result<()> {
+        self.made.fetch_add(1, Ordering::Relaxed);
+        let text = serde_json::to_string(result)
+            .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+        atomic::write(&self.path(key), text.as_bytes())
+    }
+
+    fn path(&self, key: u64) -> PathBuf {
+        self.folder.join(format!("{key:016x}.json"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_result_is_made_once_and_a_broken_file_is_no_result() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(&folder.path().join("cells")).unwrap();
+        let made = |value: f64| store.get_or(7, || Ok(value)).unwrap();
+        assert_eq!([made(0.1), made(0.2)], [0.1, 0.1]);
+        assert_eq!(store.counts(), [1, 1]);
+        fs::write(store.path(7), "{").unwrap();
+        assert_eq!(made(0.3), 0.3);
+        assert_eq!(store.counts(), [2, 1]);
+        assert_eq!(store.get::<f64>(8), None);
+    }
+}

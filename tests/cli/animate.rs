@@ -1,0 +1,322 @@
+//! Animations show the pictures that `render` draws, at the right times, whole or not at all.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use std::fs::{self, File};
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use crate::scratch::{Run, Scratch};
+
+/// Small pictures of a few colours.
+const LOOK: [&str; 4] = ["--size", "40x30", "--shader", "wireframe"];
+
+/// Three bytes a pixel.
+type Rgb = Vec<u8>;
+
+/// What `render` draws of the simulated frames.
+fn rendered(scratch: &Scratch, frames: &[u64]) -> Vec<Rgb> {
+    let draw = |frame: &u64| {
+        let bytes = scratch
+            .succeed(&[&["render", "small.json", "-", "--frame", &frame.to_string()], &LOOK[..]].concat());
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut rgb).unwrap();
+        rgb
+    };
+    frames.iter().map(draw).collect()
+}
+
+fn animate(scratch: &Scratch, out: &str, more: &[&str]) -> Run {
+    let run = scratch.run(&[&["animate", "small.json", out], &LOOK[..], more].concat());
+    assert_eq!(run.code, Some(0), "{out} {more:?}: {}", run.stderr);
+    assert_eq!(run.stdout, b"", "{out} {more:?} printed something");
+    run
+}
+
+fn paste(canvas: &mut Rgb, rgb: &[u8], [left, top, width]: [usize; 3]) {
+    for (y, row) in rgb.chunks(3 * width).enumerate() {
+        let at = 3 * ((top + y) * 40 + left);
+        canvas[at..at + row.len()].copy_from_slice(row);
+    }
+}
+
+/// The pictures of an animated PNG as a viewer shows them, and the delays.
+fn read_apng(path: &Path) -> (Vec<Rgb>, Vec<(u16, u16)>) {
+    let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
+    let control = *reader.info().animation_control().unwrap();
+    assert_eq!(control.num_plays, 0, "for ever");
+    let (mut canvas, mut pictures, mut delays) = (vec![0; 40 * 30 * 3], Vec::new(), Vec::new());
+    for _ in 0..control.num_frames {
+        let mut rgb = vec![0; 40 * 30 * 3];
+        let found = reader.next_frame(&mut rgb).unwrap();
+        let frame = reader.info().frame_control().unwrap();
+        assert_eq!((frame.dispose_op, frame.blend_op), (png::DisposeOp::None, png::BlendOp::Source));
+        rgb.truncate(found.buffer_size());
+        paste(&mut canvas, &rgb, [frame.x_offset, frame.y_offset, frame.width].map(|side| side as usize));
+        pictures.push(canvas.clone());
+        delays.push((frame.delay_num, frame.delay_den));
+    }
+    (pictures, delays)
+}
+
+/// The same of a GIF, with delays in hundredths of a second.
+fn read_gif(path: &Path) -> (Vec<Rgb>, Vec<u16>) {
+    let mut decoder = gif::DecodeOptions::new().read_info(File::open(path).unwrap()).unwrap();
+    let (mut canvas, mut pictures, mut delays) = (vec![0; 40 * 30 * 3], Vec::new(), Vec::new());
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert_eq!((frame.dispose, frame.transparent), (gif::DisposalMethod::Keep, None));
+        let palette = frame.palette.as_ref().unwrap();
+        let color = |&i: &u8| palette[3 * usize::from(i)..3 * usize::from(i) + 3].to_vec();
+        let rgb: Rgb = frame.buffer.iter().flat_map(color).collect();
+        paste(&mut canvas, &rgb, [frame.left, frame.top, frame.width].map(usize::from));
+        pictures.push(canvas.clone());
+        delays.push(frame.delay);
+    }
+    assert_eq!(decoder.repeat(), gif::Repeat::Infinite);
+    (pictures, delays)
+}
+
+#[test]
+fn an_animated_png_shows_the_nearest_frames_in_real_time() {
+    let scratch = Scratch::new();
+    animate(&scratch, "a.apng", &["--frames", "2..17", "--fps", "50"]);
+    let (pictures, delays) = read_apng(&scratch.path("a.apng"));
+    // 90 simulated frames a second: one picture every 1.8.
+    assert!(pictures == rendered(&scratch, &[2, 4, 6, 7, 9, 11, 13, 15, 16]), "other pictures");
+    assert_eq!(delays, [(1, 50); 9]);
+    assert!(pictures.windows(2).all(|pair| pair[0] != pair[1]), "it moves");
+}
+
+#[test]
+fn a_gif_shows_them_too_with_times_that_do_not_drift() {
+    let scratch = Scratch::new();
+    animate(&scratch, "a.gif", &["--frames", "0..18", "--fps", "30"]);
+    let (pictures, delays) = read_gif(&scratch.path("a.gif"));
+    assert!(pictures == rendered(&scratch, &[0, 3, 6, 9, 12, 15]), "other pictures");
+    assert_eq!(delays, [3, 4, 3, 3, 4, 3]);
+}
+
+#[test]
+fn without_options_every_frame_to_the_moment_of_the_scene_is_shown() {
+    let scratch = Scratch::new();
+    for (out, fps, pictures) in [("a.apng", 90, 9), ("f/%d.png", 90, 9), ("a.gif", 50, 5)] {
+        let time = ["--set", "render.time=0.1", "--json"];
+        let summary = scratch.json(&[&["animate", "small.json", out], &LOOK[..], &time].concat());
+        assert_eq!((&summary["fps"], &summary["pictures"]), (&fps.into(), &pictures.into()), "{out}");
+        assert_eq!((&summary["out"], &summary["kept"]), (&out.into(), &0.into()));
+    }
+    assert_eq!(read_apng(&scratch.path("a.apng")).0.len(), 9);
+    assert_eq!(read_gif(&scratch.path("a.gif")).0.len(), 5);
+    assert_eq!(fs::read_dir(scratch.path("f")).unwrap().count(), 9);
+}
+
+#[test]
+fn every_number_of_threads_gives_the_same_bytes() {
+    let scratch = Scratch::new();
+    for (out, file) in [("a.apng", "a.apng"), ("a.gif", "a.gif"), ("%02d.png", "03.png")] {
+        let bytes = |threads: &str| {
+            let _ = fs::remove_file(scratch.path(file));
+            let more = ["--shader", "phong", "--frames", "0..12", "--fps", "30", "--threads", threads];
+            scratch.succeed(&[&["animate", "small.json", out, "--size", "80x60"], &more[..]].concat());
+            scratch.read(file)
+        };
+        let one = bytes("1");
+        for threads in ["2", "7"] {
+            assert!(bytes(threads) == one, "{out}: {threads} threads differ from one");
+        }
+    }
+}
+
+/// Which of the pictures `f/0.png` .. `f/4.png` are other files after `change`.
+#[cfg(unix)]
+fn replaced(scratch: &Scratch, more: &[&str], change: impl Fn(&Scratch)) -> Vec<usize> {
+    use std::os::unix::fs::MetadataExt;
+    // A file that is written again is another one, of another time.
+    let identities = || -> Vec<_> {
+        let metadata = |k: usize| fs::metadata(scratch.path(&format!("f/{k}.png"))).ok();
+        (0..5).map(|k| metadata(k).map(|m| (m.ino(), m.mtime(), m.mtime_nsec()))).collect()
+    };
+    animate(scratch, "f/%d.png", &["--frames", "0..5"]);
+    change(scratch);
+    let before = identities();
+    animate(scratch, "f/%d.png", &[&["--frames", "0..5"], more].concat());
+    let after = identities();
+    (0..5).filter(|&k| before[k] != after[k]).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn numbered_pictures_of_the_same_scene_are_kept_and_others_are_drawn_again() {
+    let scratch = Scratch::new();
+    let path = |k: usize| format!("f/{k}.png");
+    assert_eq!(replaced(&scratch, &[], |_| ()), [0; 0]);
+    assert_eq!(replaced(&scratch, &["--set", "render.time=7", "--threads", "1"], |_| ()), [0; 0]);
+    assert_eq!(replaced(&scratch, &[], |s| fs::remove_file(s.path(&path(3))).unwrap()), [3]);
+    let cut = |s: &Scratch| fs::write(s.path(&path(1)), &s.read(&path(1))[..200]).unwrap();
+    assert_eq!(replaced(&scratch, &[], cut), [1], "a file that is cut short");
+    let other = |s: &Scratch| fs::copy(s.path(&path(2)), s.path(&path(4))).map(drop).unwrap();
+    assert_eq!(replaced(&scratch, &[], other), [4], "the picture of another frame");
+    let plain = |s: &Scratch| {
+        s.succeed(&[&["render", "small.json", "f/2.png", "--frame", "2"], &LOOK[..]].concat());
+    };
+    assert_eq!(replaced(&scratch, &[], plain), [2], "a picture that does not say what it shows");
+    for change in [
+        &["--set", "cloth.ks=4999"][..],
+        &["--set", "light.position=[0.51,2,2]"],
+        &["--samples", "4"],
+        &["--springs", "bending"],
+        &["--shader", "texture"],
+    ] {
+        let run = |s: &Scratch| {
+            let look = &LOOK[..if change[0] == "--shader" { 2 } else { 4 }];
+            s.succeed(&[&["animate", "small.json", "f/%d.png", "--frames", "0..5"], look, change].concat());
+        };
+        assert_eq!(replaced(&scratch, &[], run), [0, 1, 2, 3, 4], "{change:?}");
+    }
+    assert!(rendered(&scratch, &[4]) == [read_png(&scratch, &path(4))], "what is kept is right");
+}
+
+fn read_png(scratch: &Scratch, name: &str) -> Rgb {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(scratch.read(name))).read_info().unwrap();
+    let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut rgb).unwrap();
+    rgb
+}
+
+#[cfg(unix)]
+#[test]
+fn other_texels_under_the_same_name_are_another_scene() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("set")).unwrap();
+    let textures = Path::new(env!("CARGO_MANIFEST_DIR")).join("textures");
+    let arguments = ["animate", "small.json", "%d.png", "--frames", "0..2", "--size", "40x30"];
+    let arguments = [&arguments[..], &["--shader", "texture", "--textures", "set", "--json"]].concat();
+    let mut kept = Vec::new();
+    for texture in ["texture_1.png", "texture_1.png", "texture_3.png"] {
+        fs::copy(textures.join(texture), scratch.path("set/texture_1.png")).unwrap();
+        kept.push(scratch.json(&arguments)["kept"].as_u64().unwrap());
+    }
+    assert_eq!(kept, [0, 2, 0]);
+}
+
+#[test]
+fn a_failure_on_the_way_leaves_no_file_but_finished_pictures() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("old.gif"), "old").unwrap();
+    let stiff = ["--set", "cloth.ks=1e12", "--set", "sim.stretch_limit=null", "--allow-unstable", "-q"];
+    for out in ["a.apng", "old.gif", "f/%d.png"] {
+        let run = scratch.run(&[&["animate", "small.json", out], &LOOK[..], &stiff].concat());
+        assert_eq!(run.code, Some(5), "{out}: {}", run.stderr);
+    }
+    assert_eq!(scratch.names(), ["f", "old.gif", "small.json"]);
+    assert_eq!(scratch.read("old.gif"), b"old");
+    let pictures = fs::read_dir(scratch.path("f")).unwrap().map(|e| e.unwrap().file_name());
+    assert!(pictures.into_iter().all(|name| name.to_string_lossy().ends_with(".png")));
+}
+
+/// A folder for `PATH` in which `ffmpeg` is a script.
+#[cfg(unix)]
+fn with_ffmpeg(scratch: &Scratch, script: &str) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    fs::create_dir(scratch.path("bin")).unwrap();
+    let program = scratch.path("bin/ffmpeg");
+    fs::write(&program, format!("#!/bin/sh\n[ \"$1\" = -version ] && exit 0\n{script}\n")).unwrap();
+    fs::set_permissions(program, fs::Permissions::from_mode(0o755)).unwrap();
+    format!("{}:/usr/bin:/bin", scratch.path("bin").display())
+}
+
+#[cfg(unix)]
+fn film(scratch: &Scratch, path: &str, more: &[&str]) -> Run {
+    let arguments = ["animate", "small.json", "a.mp4", "--frames", "0..12", "--fps", "30", "-q"];
+    let mut command = scratch.command(&[&arguments[..], &LOOK, more].concat());
+    command.env("PATH", path).output().unwrap().into()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_film_is_what_ffmpeg_makes_of_the_pictures() {
+    let scratch = Scratch::new();
+    // The last argument is the file to write; the pictures come through standard input.
+    let path = with_ffmpeg(&scratch, "for last; do :; done; echo \"$*\" > args; cat > \"$last\"");
+    let run = film(&scratch, &path, &[]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(scratch.read("a.mp4"), rendered(&scratch, &[0, 3, 6, 9]).concat());
+    let arguments = String::from_utf8(scratch.read("args")).unwrap();
+    for option in ["-pixel_format rgb24", "-video_size 40x30", "-framerate 30", "-c:v libx264", "-f mp4"] {
+        assert!(arguments.contains(option), "{arguments}");
+    }
+    assert_eq!(scratch.names(), ["a.mp4", "args", "bin", "small.json"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn ffmpeg_that_fails_is_6_and_is_quoted() {
+    let scratch = Scratch::new();
+    for script in ["cat > /dev/null; echo no such encoder >&2; exit 1", "echo no such encoder >&2; exit 1"] {
+        let path = with_ffmpeg(&scratch, script);
+        let run = film(&scratch, &path, &[]);
+        assert_eq!(run.code, Some(6), "{}", run.stderr);
+        assert!(run.stderr.contains("no such encoder"), "{}", run.stderr);
+        fs::remove_dir_all(scratch.path("bin")).unwrap();
+        assert_eq!(scratch.names(), ["small.json"]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn without_ffmpeg_the_exit_code_is_6_and_the_line_to_run_is_told() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("empty")).unwrap();
+    let path = scratch.path("empty").to_str().unwrap().to_owned();
+    // The simulation would be refused as unstable.
+    let run = film(&scratch, &path, &["--set", "cloth.ks=1e12"]);
+    assert_eq!(run.code, Some(6), "{}", run.stderr);
+    assert!(run.stderr.contains("animate to a/%04d.png"), "{}", run.stderr);
+    let line = run.stderr.lines().find(|line| line.trim().starts_with("ffmpeg ")).expect("a line to run");
+    let expected = "ffmpeg -framerate 30 -i a/%04d.png -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -c:v libx264 -pix_fmt yuv420p a.mp4";
+    assert_eq!(line.trim(), expected);
+    assert_eq!(scratch.names(), ["empty", "small.json"]);
+    // The line is one that a shell can read.
+    fs::remove_dir(scratch.path("empty")).unwrap();
+    with_ffmpeg(&scratch, "for last; do :; done; printf '%s\\n' \"$@\" > \"$last\"");
+    let mut shell = std::process::Command::new("/bin/sh");
+    shell.args(["-c", line.trim()]).current_dir(scratch.path("")).env("PATH", scratch.path("bin"));
+    assert!(shell.status().unwrap().success());
+    let mut words = String::new();
+    File::open(scratch.path("a.mp4")).unwrap().read_to_string(&mut words).unwrap();
+    assert!(words.lines().any(|word| word == "pad=ceil(iw/2)*2:ceil(ih/2)*2"), "{words}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_finished_pictures_and_no_other_file() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+    let scratch = Scratch::new();
+    for (out, says) in [("f/%d.png", "goes on from there"), ("a.apng", "nothing was written")] {
+        let arguments = ["animate", "small.json", out, "--frames", "0..100000000", "--size", "64x64"];
+        let mut child = scratch.command(&arguments).stderr(Stdio::piped()).spawn().unwrap();
+        let (started, first) = (Instant::now(), scratch.path("f/1.png"));
+        // A picture is there, or, the second time, there would have been.
+        while !first.exists() || started.elapsed() < Duration::from_millis(300) {
+            assert!(started.elapsed() < Duration::from_secs(20), "no picture");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        while child.try_wait().unwrap().is_none() {
+            if started.elapsed() > Duration::from_secs(20) {
+                child.kill().unwrap();
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let run: Run = child.wait_with_output().unwrap().into();
+        assert_eq!(run.code, Some(130), "{out}: {}", run.stderr);
+        assert!(run.stderr.contains(says), "{out}: {}", run.stderr);
+    }
+    assert_eq!(scratch.names(), ["f", "small.json"]);
+    for entry in fs::read_dir(scratch.path("f")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert_eq!(read_png(&scratch, &format!("f/{name}")).len(), 64 * 64 * 3, "{name}");
+    }
+}

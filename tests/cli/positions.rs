@@ -1,0 +1,164 @@
+//! `compare-positions` finds where another program parts from the method, and names its mistake.
+//! The other program is a second implementation of the method, which can make the mistakes.
+
+use std::fs;
+
+use drape::scene::{Overrides, Scene, load_text};
+use serde_json::Value;
+
+use crate::naive::{Cloth, Mistakes};
+use crate::scratch::Scratch;
+
+/// A hanging cloth.
+const HANGING: &str = r#"{"cloth": {"width": 1, "height": 0.8, "num_width_points": 11,
+    "num_height_points": 9, "thickness": 0.0095, "orientation": 0, "pinned": [[1, 0], [8, 0], [3, 2]],
+    "damping": 0.2, "density": 150, "ks": 5000, "enable_structural": true,
+    "enable_shearing": true, "enable_bending": true}, "render": {"time": 0.1}}"#;
+
+fn scene(text: &str) -> Scene {
+    load_text("x.json", text, &Overrides::default()).expect("a scene").scene
+}
+
+/// The positions of frames 0 up to, without, `frames`, by a program that makes `mistakes`.
+fn positions(text: &str, mistakes: Mistakes, frames: usize) -> Vec<f64> {
+    let scene = scene(text);
+    let mut cloth = Cloth::new(&scene, mistakes);
+    let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
+    for _ in 1..frames {
+        (0..scene.sim.steps_per_frame).for_each(|_| cloth.step());
+        numbers.extend(cloth.x.as_flattened());
+    }
+    numbers
+}
+
+fn raw(numbers: &[f64]) -> Vec<u8> {
+    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+}
+
+/// What the command says of `bytes`.
+fn compared(text: &str, bytes: Vec<u8>, more: &[&str], code: i32) -> Value {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("scene.json"), text).expect("a file");
+    fs::write(scratch.path("theirs"), bytes).expect("a file");
+    let run = scratch.run(&[&["compare-positions", "scene.json", "theirs", "--json"], more].concat());
+    assert_eq!(run.code, Some(code), "{}", run.stderr);
+    run.object()
+}
+
+fn verdict(text: &str, mistakes: Mistakes, frames: usize) -> String {
+    let report = compared(text, raw(&positions(text, mistakes, frames)), &[], 1);
+    let verdict = report["verdict"].as_str().expect("a verdict").to_owned();
+    verdict
+}
+
+#[test]
+fn the_method_itself_has_equal_bits() {
+    let report = compared(HANGING, raw(&positions(HANGING, Mistakes::default(), 10)), &[], 0);
+    assert_eq!((&report["states"], &report["first_frame"]), (&10.into(), &0.into()));
+    assert!(report.get("difference").is_none() && report["mistakes"].as_array().is_some_and(Vec::is_empty));
+}
+
+#[test]
+fn mistakes_that_can_be_run_are_named() {
+    let none = Mistakes::default();
+    for (mistakes, name) in [
+        (Mistakes { pitch: true, ..none }, "width / W"),
+        (Mistakes { pins_are_rows: true, ..none }, "[row, column]"),
+        (Mistakes { pins_are_lists: true, ..none }, "list of columns"),
+        (Mistakes { stiff_bending: true, ..none }, "without the 0.2"),
+        (Mistakes { soft_springs: true, ..none }, "0.2 ks for all springs"),
+        (Mistakes { damping_is_a_fraction: true, ..none }, "damping not divided by 100"),
+    ] {
+        let verdict = verdict(HANGING, mistakes, 10);
+        assert!(verdict.starts_with("this is the mistake") && verdict.contains(name), "{name}: {verdict}");
+    }
+}
+
+#[test]
+fn a_missing_offset_of_the_plane_is_suspected() {
+    let text = HANGING.replace(
+        "\"cloth\"",
+        r#""plane": {"point": [0, 0.97, 0], "normal": [0, 1, 0], "friction": 0.5}, "cloth""#,
+    );
+    let verdict = verdict(&text, Mistakes { no_plane_offset: true, ..Mistakes::default() }, 12);
+    assert!(verdict.contains("collision with planes (the offset of 0.0001 m"), "{verdict}");
+}
+
+#[test]
+fn a_rounded_hash_of_the_boxes_is_suspected() {
+    let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1").replace("0.0095", "0.06");
+    let verdict = verdict(&text, Mistakes { float_hash: true, ..Mistakes::default() }, 10);
+    assert!(verdict.contains("told apart by a rounded"), "{verdict}");
+}
+
+#[test]
+fn the_place_and_the_size_of_the_difference_are_told() {
+    let mut numbers = positions(HANGING, Mistakes::default(), 5);
+    let point = 4 * 11 + 7;
+    for frame in [3, 4] {
+        numbers[3 * (frame * 99 + point) + 2] += 0.5;
+    }
+    let found = &compared(HANGING, raw(&numbers), &[], 1)["difference"];
+    assert_eq!((&found["frame"], &found["point"]), (&3.into(), &serde_json::json!([7, 4])));
+    assert!((found["distance"].as_f64().expect("a distance") - 0.5).abs() < 1e-12, "{found}");
+    assert_eq!(found["distance"], found["largest"]);
+    numbers[0] = f64::NAN;
+    let found = &compared(HANGING, raw(&numbers), &["--tolerance", "1"], 1)["difference"];
+    assert_eq!(
+        (&found["frame"], &found["theirs"][0], &found["largest"]),
+        (&0.into(), &Value::Null, &Value::Null)
+    );
+}
+
+#[test]
+fn a_tolerance_lets_pass_and_rounding_is_told_from_mistakes() {
+    let numbers: Vec<f64> =
+        positions(HANGING, Mistakes::default(), 5).iter().map(|x| x * (1.0 + 4.0 * f64::EPSILON)).collect();
+    let report = compared(HANGING, raw(&numbers), &[], 1);
+    assert!(report["verdict"].as_str().is_some_and(|verdict| verdict.contains("rounding")), "{report}");
+    compared(HANGING, raw(&numbers), &["--tolerance", "1e-12"], 0);
+    compared(HANGING, raw(&numbers), &["--tolerance", "1e-17"], 1);
+}
+
+#[test]
+fn frames_are_found_by_their_number_or_given() {
+    let numbers = positions(HANGING, Mistakes::default(), 10);
+    let state = 3 * 99;
+    let first = |from: usize, to: usize, more: &[&str]| {
+        compared(HANGING, raw(&numbers[from * state..to * state]), more, 0)["first_frame"].clone()
+    };
+    // The scene shows 9 frames.
+    assert_eq!(first(0, 10, &[]), 0);
+    assert_eq!(first(1, 10, &[]), 1);
+    assert_eq!(first(9, 10, &[]), 9);
+    assert_eq!(first(0, 4, &[]), 0);
+    assert_eq!(first(4, 5, &["--frame", "4"]), 4);
+    assert_eq!(first(2, 6, &["--frames", "2..6"]), 2);
+    let text: String = numbers[..2 * state]
+        .chunks(3)
+        .map(|point| format!("{} {} {}\n", point[0], point[1], point[2]))
+        .collect();
+    assert_eq!(compared(HANGING, text.into_bytes(), &[], 0)["states"], 2);
+    let scratch = Scratch::new();
+    fs::write(scratch.path("scene.json"), HANGING).expect("a file");
+    fs::write(scratch.path("theirs"), raw(&numbers)).expect("a file");
+    for (more, code) in
+        [(&["--frame", "4"][..], 2), (&["--frames", "0..9"], 2), (&["--set", "cloth.num_width_points=12"], 6)]
+    {
+        let run = scratch.run(&[&["compare-positions", "scene.json", "theirs"], more].concat());
+        assert_eq!((run.code, run.stdout.len()), (Some(code), 0), "{more:?}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn the_text_names_frame_point_and_verdict() {
+    let scratch = Scratch::new();
+    fs::write(scratch.path("scene.json"), HANGING).expect("a file");
+    let numbers = positions(HANGING, Mistakes { pitch: true, ..Mistakes::default() }, 3);
+    fs::write(scratch.path("theirs"), raw(&numbers)).expect("a file");
+    let run = scratch.run(&["compare-positions", "scene.json", "theirs"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let text = String::from_utf8(run.stdout).expect("text");
+    assert!(text.contains("parts at    frame 0, point (1, 0)"), "{text}");
+    assert!(text.contains("verdict     this is the mistake: points width / W apart"), "{text}");
+}
