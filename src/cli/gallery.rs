@@ -113,8 +113,8 @@ impl Args {
 /// What the command line makes of `command`, a `drape render` of built-in files.
 fn read(command: &str) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{command}`: {cause}"));
-    let arguments =
-        Arguments::try_parse_from(command.split_whitespace()).map_err(|refusal| wrong(refusal.to_string()))?;
+    let arguments = Arguments::try_parse_from(command.split_whitespace())
+        .map_err(|refusal| wrong(refusal.to_string()))?;
     let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
     let mut scene = render.scene.load_stock()?;
     render.look.apply(&mut scene);
@@ -146,6 +146,7 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
 fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
     let mut made = shots.iter().zip(shown);
     let mut entry = |figure| Entry::new(figure, &mut made);
-    let parts: Vec<_> = parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
+    let parts: Vec<_> =
+        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
     page::page(&parts)
 }

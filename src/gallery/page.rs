@@ -16,7 +16,8 @@ pub struct Entry<'a> {
 impl<'a> Entry<'a> {
     /// `figure` with the next of the pictures that were `made`, one for each that it names.
     pub fn new(figure: &'a Figure, made: &mut impl Iterator<Item = (&'a Shot, &'a Shown)>) -> Self {
-        let pictures = figure.pictures.iter().zip(made).map(|(picture, (shot, shown))| (picture, shot, shown));
+        let pictures =
+            figure.pictures.iter().zip(made).map(|(picture, (shot, shown))| (picture, shot, shown));
         Self { figure, pictures: pictures.collect() }
     }
 }
@@ -46,7 +47,14 @@ pub fn page(parts: &[(&Part, Vec<Entry<'_>>)]) -> String {
         sections += &format!("<h2>{title}</h2>\n");
         sections.extend(entries.iter().map(section));
     }
-    page::head("The figures of the report") + STYLE + TEXT + "<nav>\n" + &contents + "</nav>\n" + &sections + page::END
+    page::head("The figures of the report")
+        + STYLE
+        + TEXT
+        + "<nav>\n"
+        + &contents
+        + "</nav>\n"
+        + &sections
+        + page::END
 }
 
 fn link(name: &str) -> String {
@@ -72,8 +80,10 @@ fn row((picture, shot, shown): &(&Picture, &Shot, &Shown)) -> String {
         ("Stability", facts::margin(&shown.state)),
         ("Energy", facts::ledger(&shown.state)),
     ];
-    let terms: String =
-        terms.iter().map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text))).collect();
+    let terms: String = terms
+        .iter()
+        .map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text)))
+        .collect();
     format!(
         "<div class=\"row\">\n<figure><a href=\"{name}.png\">{}</a>\n<figcaption>{}</figcaption></figure>\n\
          <div><dl>\n{terms}</dl>\n<pre>{}</pre></div>\n</div>\n",
