@@ -27,7 +27,23 @@ const PICTURES: &[Case] = &[
 
 /// Figures that take more than 20 KiB at 256 x 200. A hash holds every pixel of these, and the
 /// file shows them at half the size.
-const HALVED: &[&str] = &[];
+const HALVED: &[&str] = &[
+    "part2-med-high-ks",
+    "part2-low-density",
+    "part2-final",
+    "part3-sphere-500",
+    "part3-sphere-50000",
+    "part3-plane-textured",
+    "part5-tball",
+    "part5-tcloth",
+    "part5-mball",
+    "part5-mcloth",
+    "part5-cballw",
+    "part5-cballp",
+    "part5-cballb",
+    "part5-cclothw",
+    "part5-cclothr",
+];
 
 /// The grid of letters, looked up without weights.
 const NEAREST: &str = "--patch scenes/look/ball.json --size 160x125 --shader texture \

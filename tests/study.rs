@@ -99,9 +99,9 @@ fn a_small_study_finds_the_order_of_every_method() {
     let smallest = error("Verlet, half-step start", 3);
     assert!(floor.rms <= 0.1 * smallest, "{floor:?} for {smallest:e}");
     assert!(panel.reference.rates[1] >= 4 * half[3].rate, "{:?}", panel.reference.rates);
-    // The hull that is the same on every machine is the best method alone.
+    // Of the hull that is the same on every machine the most accurate is the best method.
     let hull = panel.hull(Cost::Springs);
-    assert!(!hull.is_empty() && hull.iter().all(|&i| panel.cells[i].method == 0), "{hull:?}");
+    assert_eq!(hull.last().map(|&i| panel.cells[i].method), Some(0), "{hull:?}");
     let pictures = study.pictures.as_ref().unwrap();
     let rmse: Vec<f64> = pictures.drawn.iter().map(|drawn| drawn.rmse).collect();
     assert_eq!(pictures.drawn.len(), 8, "samples in binary32 and in binary64");

@@ -156,7 +156,7 @@ fn fastest(cloth: &Cloth, grid: Grid, x: &Points, pins: &Pins, rounds: usize) ->
 /// alone join every other point, so with them alone it is every other column or row.
 fn first_guess(cloth: &Cloth, grid: Grid) -> Result<Points> {
     let apart = if cloth.enable_structural || cloth.enable_shearing { 1 } else { 2 };
-    let side = |index: usize| if index / apart % 2 == 0 { 1.0 } else { -1.0 };
+    let side = |index: usize| if (index / apart).is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut moves = Points::zeros(grid.len())?;
     for p in 0..grid.len() {
         let (i, j) = grid.column_row(p);

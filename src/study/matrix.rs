@@ -14,6 +14,9 @@ pub struct Method {
     pub name: &'static str,
     /// The changes, as `--set` takes them, after those of [`MODEL`].
     pub sets: &'static [&'static str],
+    /// Steps per second, in whole tens; none for a method with a stable rate, whose multiples it is run at.
+    #[serde(skip)]
+    rates: &'static [u32],
 }
 
 /// The differential equation that every method approaches: what else a scene asks for has no limit
@@ -30,10 +33,10 @@ pub const MODEL: [&str; 6] = [
 
 /// The methods; the first is also the reference's.
 pub const METHODS: &[Method] = &[
-    Method { name: "Verlet, half-step start", sets: &[] },
-    Method { name: "Verlet, report start", sets: &["sim.start=report"] },
-    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"] },
-    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"] },
+    Method { name: "Verlet, half-step start", sets: &[], rates: &[] },
+    Method { name: "Verlet, report start", sets: &["sim.start=report"], rates: &[] },
+    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"], rates: &[] },
+    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"], rates: &[] },
     Method {
         name: "as published",
         sets: &[
@@ -42,8 +45,29 @@ pub const METHODS: &[Method] = &[
             "sim.stretch_limit=0.1",
             "sim.self_collision=same_box",
         ],
+        rates: &[],
     },
+    Method { name: "Verlet, f32", sets: &["sim.precision=f32"], rates: &[] },
+    Method {
+        name: "XPBD, 1 pass",
+        sets: &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=1"],
+        rates: &[60, 120, 300, 600, 1200, 2700, 8100],
+    },
+    Method {
+        name: "XPBD, 10 passes",
+        sets: &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=10"],
+        rates: &[60, 120, 300, 600],
+    },
+    Method {
+        name: "implicit Euler",
+        sets: &["sim.integrator=implicit_euler", "sim.start=report"],
+        rates: LARGE_STEPS,
+    },
+    Method { name: "BDF2", sets: &["sim.integrator=bdf2", "sim.start=report"], rates: LARGE_STEPS },
 ];
+
+/// Steps per second of the implicit methods.
+const LARGE_STEPS: &[u32] = &[30, 60, 120, 300, 600];
 
 /// A scene file and changes to it, loaded anew for each cell of the matrix.
 #[derive(Clone, Debug)]
@@ -190,7 +214,8 @@ fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Resul
         return Ok(panel);
     }
     for (number, method) in METHODS.iter().enumerate() {
-        for &rate in &rates {
+        let own = if method.rates.is_empty() { &rates } else { method.rates };
+        for &rate in own {
             let changes = method.sets.iter().map(ToString::to_string).chain(clock(stock.sim.fps, rate));
             let scene = source.scene(&panel.sets.iter().cloned().chain(changes).collect::<Vec<_>>())?;
             panel.cells.push(Cell { method: number, rate, scene });
