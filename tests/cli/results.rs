@@ -177,7 +177,7 @@ fn only_verlets_scheme_has_a_largest_step() {
     let path = scene("pinned2.json");
     let coarse = ["--set", "sim.steps_per_frame=1", "--set", "cloth.ks=50000"];
     let run =
-        |more: &[&str]| scratch.run(&[&["simulate", &path, "--frames", "20"], &coarse[..], more].concat());
+        |more: &[&str]| scratch.run(&[&["simulate", &path, "--frames", "40"], &coarse[..], more].concat());
     let verlet = run(&[]);
     assert!(verlet.code == Some(5) && verlet.stderr.contains("unstable before the first step"));
     let xpbd = ["--set", "sim.integrator=xpbd"];
