@@ -103,7 +103,7 @@ fn every_picture_is_its_golden() {
 
 /// The names of all pictures of the gallery.
 fn figures() -> Vec<String> {
-    let parts = table::parts().unwrap();
+    let parts = table::parts().expect("the table of figures");
     let figures = parts.into_iter().flat_map(|part| part.figures);
     figures.flat_map(|figure| figure.pictures).map(|picture| picture.name).collect()
 }
