@@ -55,6 +55,18 @@ fn outputs(line: &str) -> Vec<&str> {
 fn every_command_runs_and_leaves_what_it_names() {
     let lines = lines_of("sh");
     assert!(lines.len() >= 20, "found {} commands", lines.len());
+    all_run(&lines);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn every_long_command_runs() {
+    let lines = lines_of("bash");
+    assert_eq!(lines.len(), 3);
+    all_run(&lines);
+}
+
+fn all_run(lines: &[String]) {
     let failed: Vec<String> = lines
         .par_iter()
         .filter_map(|line| {

@@ -212,7 +212,7 @@ mod tests {
             shot("scenes/sphere.json", &["sim.fps=30"], 0),
             shot("scenes/plane.json", &[], 0),
             shot("scenes/plane.json", &["plane.friction=0.1"], 0),
-            shot("scenes/plane.json", &["cloth=null"], 0),
+            shot("scenes/plane.json", &["cloth.density=1"], 0),
             Shot { allow_unstable: true, ..shot("scenes/plane.json", &[], 0) },
         ];
         let expected: [&[usize]; 8] = [&[1], &[2, 0], &[3], &[4], &[5], &[6], &[7], &[8]];

@@ -55,6 +55,8 @@ pub struct Run {
 /// As [`Simulation::new`]; being unstable is an outcome, not an error.
 pub fn run(scene: &Scene, frames: u64) -> Result<Run> {
     let mut simulation = Simulation::new(scene)?;
+    // Behind a stretch limit only the ledger shows a blow-up (docs/stability.md).
+    simulation.record_ledger()?;
     let bound = scene.sim.stretch_limit.map_or(f64::INFINITY, |limit| 1.0 + 2.0 * limit);
     let mut run = Run { outcome: Outcome::Ok, frames: 0, stretch: 0.0 };
     while run.frames < frames {
