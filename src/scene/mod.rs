@@ -32,8 +32,8 @@ use nalgebra::Vector3;
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
-pub use sim::{Contact, Damping, Integrator, Precision, SelfCollision, Sim, Start};
 pub use schema::schema;
+pub use sim::{Contact, Damping, Integrator, Precision, SelfCollision, Sim, Start};
 
 /// A point or direction in metres, world space, y up.
 pub type Vec3 = Vector3<f64>;
