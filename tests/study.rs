@@ -139,7 +139,7 @@ fn a_study_that_was_stopped_goes_on_where_it_was() {
     let calls = AtomicU64::new(0);
     let stop = |_: u32| -> Result<()> {
         match calls.fetch_add(1, Ordering::Relaxed) {
-            150 => Err(Error::new(Kind::Signal(2), "stopped")),
+            3000 => Err(Error::new(Kind::Signal(2), "stopped")),
             _ => Ok(()),
         }
     };
