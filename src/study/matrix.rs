@@ -144,8 +144,8 @@ impl Extent {
         Self {
             tenths: vec![1, 2],
             densities: vec![1.0, 1e-3],
-            rates: vec![0.5, 1.02, 2.0, 4.0],
-            most_springs: 4e8,
+            rates: vec![0.5, 1.02, 2.0],
+            most_springs: 2e8,
             most_reference: 1e10,
             repeats: 3,
             patience: 1.5,
