@@ -11,7 +11,7 @@ pub(super) fn parameters(shot: &Shot, state: &State) -> String {
     if let Some(cloth) = &scene.cloth {
         parts.push(cloth_parameters(cloth));
         parts.push(format!("{} frames/s, {} steps each", scene.sim.fps, scene.sim.steps_per_frame));
-        parts.push(format!("frame {}, {:.4} s", state.frame, state.time));
+        parts.push(format!("frame {}, {:.3} s", state.frame, state.time));
     } else {
         parts.push("no cloth".to_owned());
     }

@@ -9,9 +9,12 @@ use crate::output::page;
 pub struct Entry<'a> {
     /// The entry of the table.
     pub figure: &'a Figure,
-    /// What was asked for, and what was made of it.
-    pub pictures: Vec<(&'a Picture, &'a Shot, &'a Shown)>,
+    /// One for each that the entry names.
+    pub pictures: Vec<Made<'a>>,
 }
+
+/// A picture of the table, what was asked for, and what was made of it.
+pub type Made<'a> = (&'a Picture, &'a Shot, &'a Shown);
 
 impl<'a> Entry<'a> {
     /// `figure` with the next of the pictures that were `made`, one for each that it names.
@@ -24,7 +27,7 @@ impl<'a> Entry<'a> {
 
 /// What this page adds to the style of all pages.
 const STYLE: &str = "<style>section{border-top:1px solid var(--line);padding:.6rem 0 1rem}h3{margin:.2rem 0 .6rem}\
-.row>figure{max-width:32.2rem}.row>div{flex:1 1 19rem;min-width:0}img{image-rendering:auto}\
+figure{margin:0}.row>figure{max-width:32.2rem}.row>div{flex:1 1 19rem;min-width:0}img{image-rendering:auto}\
 .note{border-left:4px solid var(--b);padding-left:.7rem}dl{margin:.5rem 0}dt{font-weight:600}dd{margin:0 0 .5rem}\
 nav a{margin-right:.6rem;display:inline-block}pre{white-space:pre-wrap}</style>\n";
 
@@ -68,13 +71,25 @@ fn section(entry: &Entry<'_>) -> String {
         "" => String::new(),
         note => format!("<p class=\"note\">{}</p>\n", page::escape(note)),
     };
-    let rows: String = entry.pictures.iter().map(row).collect();
-    format!("<section id=\"{name}\">\n<h3>{name}</h3>\n{note}{rows}</section>\n")
+    let cells: String = match entry.pictures.as_slice() {
+        [one] => format!("{}<div>\n{}</div>\n", shown(one), details(one)),
+        several => several
+            .iter()
+            .map(|picture| format!("<div>\n{}{}</div>\n", shown(picture), details(picture)))
+            .collect(),
+    };
+    format!(
+        "<section id=\"{name}\">\n<h3>{name}</h3>\n{note}<div class=\"row\">\n{cells}</div>\n</section>\n"
+    )
 }
 
-/// A picture with all that is known of it.
-fn row((picture, shot, shown): &(&Picture, &Shot, &Shown)) -> String {
-    let name = page::escape(&picture.name);
+fn shown((picture, _, shown): &Made<'_>) -> String {
+    let (name, caption) = (page::escape(&picture.name), page::escape(&picture.caption));
+    let image = page::image(&picture.name, &shown.half);
+    format!("<figure><a href=\"{name}.png\">{image}</a>\n<figcaption>{caption}</figcaption></figure>\n")
+}
+
+fn details((picture, shot, shown): &Made<'_>) -> String {
     let terms = [
         ("Parameters", facts::parameters(shot, &shown.state)),
         ("Stability", facts::margin(&shown.state)),
@@ -84,13 +99,7 @@ fn row((picture, shot, shown): &(&Picture, &Shot, &Shown)) -> String {
         .iter()
         .map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text)))
         .collect();
-    format!(
-        "<div class=\"row\">\n<figure><a href=\"{name}.png\">{}</a>\n<figcaption>{}</figcaption></figure>\n\
-         <div><dl>\n{terms}</dl>\n<pre>{}</pre></div>\n</div>\n",
-        page::image(&picture.name, &shown.half),
-        page::escape(&picture.caption),
-        page::escape(&picture.command()),
-    )
+    format!("<dl>\n{terms}</dl>\n<pre>{}</pre>\n", page::escape(&picture.command()))
 }
 
 #[cfg(test)]

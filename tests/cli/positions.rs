@@ -47,8 +47,7 @@ fn compared(text: &str, bytes: Vec<u8>, more: &[&str], code: i32) -> Value {
 
 fn verdict(text: &str, mistakes: Mistakes, frames: usize) -> String {
     let report = compared(text, raw(&positions(text, mistakes, frames)), &[], 1);
-    let verdict = report["verdict"].as_str().expect("a verdict").to_owned();
-    verdict
+    report["verdict"].as_str().expect("a verdict").to_owned()
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::scratch::Scratch;
 
 /// The commands, as the help lists them.
 fn commands(scratch: &Scratch) -> Vec<String> {
-    let help = String::from_utf8(scratch.succeed(&["--help"])).unwrap();
-    let list = help.split("Commands:").nth(1).unwrap().split("\n\n").next().unwrap();
+    let help = String::from_utf8(scratch.succeed(&["--help"])).expect("text");
+    let list = help.split("Commands:").nth(1).and_then(|rest| rest.split("\n\n").next()).expect("a list");
     let lines = list.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let names: Vec<String> =
         lines.filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect();
