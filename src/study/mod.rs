@@ -145,12 +145,25 @@ impl PanelStudy {
 
     /// The cells that no other beats, in order of their cost.
     pub fn hull(&self, cost: Cost) -> Vec<usize> {
-        hull(&self.points(cost))
+        hull(&self.rivals(cost))
     }
 
     /// Which cell to use for which budget of wall time.
     pub fn advice(&self) -> Vec<Advice> {
-        advice(&self.points(Cost::Wall))
+        advice(&self.rivals(Cost::Wall))
+    }
+
+    /// The [`PanelStudy::points`] of cells that differ: where what a method adds does nothing, its times
+    /// differ from those of the method without it by chance alone.
+    fn rivals(&self, cost: Cost) -> Vec<[f64; 2]> {
+        let mut points = self.points(cost);
+        for (i, point) in points.iter_mut().enumerate() {
+            let errors = &self.cells[i].errors;
+            if self.cells[..i].iter().any(|other| other.errors == *errors) {
+                point[1] = f64::NAN;
+            }
+        }
+        points
     }
 
     /// A cell in words, such as `Verlet, report start at 2700 steps/s`.

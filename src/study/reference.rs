@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::matrix::{Extent, Panel, Source, clock};
 use super::store::Store;
-use super::trajectory::{self, Moment, Trajectory};
+use super::trajectory::{self, Limits, Moment, Trajectory};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
 
@@ -129,7 +129,8 @@ fn rung(
     let sets: Vec<String> = panel.sets.iter().cloned().chain(clock(stock.sim.fps, rate)).collect();
     let scene = source.scene(&sets)?;
     let key = key("rung", &(&scene, &extent.tenths));
-    store.get_or(key, || trajectory::run(&scene, rate, &extent.tenths, watch))
+    let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_reference };
+    store.get_or(key, || trajectory::run(&scene, rate, limits, watch))
 }
 
 /// A name for what `kind` of result depends on `what`: its own text, in hash.

@@ -85,11 +85,13 @@ fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
          <p>Pareto hull (no other point is both cheaper and more accurate), by time: {by_time}. \
          By springs visited: {by_count}.</p>\n\
          <p class=\"soft\">Hollow: finite, but the cloth gained energy out of nothing. Crosses on the top edge: \
-         lost (no number any more). Grey: not told from the reference, which is Verlet with the half-step \
+         lost (no number any more). Given up and not drawn: what \
+         visited more than {:.0e} springs. Grey: not told from the reference, which is Verlet with the half-step \
          start at {fine} steps/s; the floor is its distance from {coarse} steps/s.</p>\n\
          <details><summary>All {} runs</summary>\n{}</details>\n",
         heading(panel),
         plots.concat(),
+        study.extent.most_springs,
         panel.cells.len(),
         tables::cells(study, panel),
     )

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::matrix::{Cell, Extent, Panel, Source};
 use super::reference::{Difference, Reference, differences, key};
 use super::store::Store;
-use super::trajectory::{self, Moment, Trajectory};
+use super::trajectory::{self, Limits, Moment, Trajectory};
 use crate::error::Result;
 
 /// The part of the energy released by the fall that a cloth may gain before it counts as unstable.
@@ -22,6 +22,8 @@ pub enum Outcome {
     EnergyAboveBound,
     /// A position or an energy is no longer a number.
     Lost,
+    /// It visited too many springs and was given up.
+    TooDear,
 }
 
 impl Outcome {
@@ -31,6 +33,7 @@ impl Outcome {
             Self::Ok => "ok",
             Self::EnergyAboveBound => "energy above bound",
             Self::Lost => "lost",
+            Self::TooDear => "too dear",
         }
     }
 }
@@ -47,7 +50,7 @@ pub struct Measured {
     /// Distance from the reference at each moment that was reached.
     pub errors: Vec<Difference>,
     /// Energy above the reference's at the last moment over the energy that the fall released;
-    /// positive means gained. Absent when the cloth was lost or nothing fell.
+    /// positive means gained. Absent when the run was not whole or nothing fell.
     pub drift: Option<f64>,
     /// Largest length of a spring over its rest length at the moments.
     pub stretch: f64,
@@ -62,19 +65,20 @@ impl Measured {
         let released = reference.moments.iter().map(|moment| moment.height.abs()).fold(0.0, f64::max);
         let last = run.moments.len().checked_sub(1).filter(|_| released > 0.0);
         let drift = last.map(|i| (run.moments[i].energy - reference.moments[i].energy) / released);
-        let lost = run.moments.len() < reference.moments.len();
+        let whole = run.moments.len() == reference.moments.len();
         let gained = |moment: &Moment| moment.energy > ENERGY_BOUND * released;
-        let outcome = match lost {
-            true => Outcome::Lost,
-            false if run.moments.iter().any(gained) => Outcome::EnergyAboveBound,
-            false => Outcome::Ok,
+        let outcome = match whole {
+            false if run.given_up => Outcome::TooDear,
+            false => Outcome::Lost,
+            true if run.moments.iter().any(gained) => Outcome::EnergyAboveBound,
+            true => Outcome::Ok,
         };
         Self {
             method: cell.method,
             rate: cell.rate,
             outcome,
             errors: differences(&run.moments, &reference.moments),
-            drift: drift.filter(|_| !lost),
+            drift: drift.filter(|_| whole),
             stretch: run.moments.iter().map(|moment| moment.stretch).fold(0.0, f64::max),
             springs: run.springs,
             walls: vec![run.wall],
@@ -114,7 +118,9 @@ pub fn measure(
     let mut keys = Vec::new();
     for (panel, reference) in panels {
         let model = source.scene(&panel.sets)?;
-        let of = |cell: &Cell| key("cell", &(&cell.scene, &extent.tenths, &model, reference.rates));
+        let of = |cell: &Cell| {
+            key("cell", &(&cell.scene, &extent.tenths, extent.most_springs, &model, reference.rates))
+        };
         keys.push(panel.cells.iter().map(of).collect::<Vec<_>>());
         let kept = keys.last().into_iter().flatten().map(|key| store.get::<Measured>(*key));
         let kept: Vec<_> = kept.collect();
@@ -128,7 +134,8 @@ pub fn measure(
                     watch(cell.rate / 10 * extent.last())?;
                     continue;
                 }
-                let run = trajectory::run(&cell.scene, cell.rate, &extent.tenths, watch)?;
+                let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_springs };
+                let run = trajectory::run(&cell.scene, cell.rate, limits, watch)?;
                 match measured {
                     Some(measured) => measured.walls.push(run.wall),
                     None => *measured = Some(Measured::new(cell, &run, reference)),
@@ -144,7 +151,8 @@ impl Measured {
     /// Whether the repetition number `round` was made, would take too long, or tells nothing.
     fn is_done(&self, round: usize, extent: &Extent) -> bool {
         let spent = self.walls.iter().sum::<f64>() * 0.1 * f64::from(extent.last());
-        self.outcome == Outcome::Lost || self.walls.len() > round || spent > extent.patience
+        let whole = matches!(self.outcome, Outcome::Ok | Outcome::EnergyAboveBound);
+        !whole || self.walls.len() > round || spent > extent.patience
     }
 }
 

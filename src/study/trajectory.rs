@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 
-/// Steps between two looks at the watch.
-const PATIENCE: u32 = 500;
+/// Most steps between two looks at what was spent.
+const PATIENCE: u32 = 10;
 
 /// What a run gave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -21,6 +21,8 @@ pub struct Trajectory {
     pub springs: f64,
     /// Wall time per simulated second, in seconds.
     pub wall: f64,
+    /// Whether it was given up because it became too dear.
+    pub given_up: bool,
 }
 
 /// The cloth at one moment.
@@ -38,51 +40,82 @@ pub struct Moment {
     pub stretch: f64,
 }
 
-/// Runs `scene` at `rate` steps per second, a multiple of 10, and looks at it at each of `tenths` of a
-/// second. `watch` is told the steps that were made since it was last called, and can end the run.
+/// How far and how dear a run may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits<'a> {
+    /// When it is looked at, in tenths of a second, ascending.
+    pub tenths: &'a [u32],
+    /// After how many springs, about, it is given up: how many an implicit step visits is not known
+    /// before it is made.
+    pub most_springs: f64,
+}
+
+/// Runs `scene` at `rate` steps per second, a multiple of 10. `watch` is told the steps that were made
+/// since it was last called, and can end the run.
 ///
 /// # Errors
 /// Those of [`Simulation::new`] and of `watch`.
 pub fn run(
     scene: &Scene,
     rate: u32,
-    tenths: &[u32],
+    limits: Limits<'_>,
     watch: &dyn Fn(u32) -> Result<()>,
 ) -> Result<Trajectory> {
-    let mut simulation = Simulation::new(scene)?;
-    simulation.allow_unstable();
+    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, limits, watch };
+    run.simulation.allow_unstable();
     let mut probe = Probe::new(scene)?;
-    let (mut moments, mut elapsed, mut done) = (Vec::new(), Duration::ZERO, 0);
-    for &tenth in tenths {
+    let (mut moments, mut given_up, mut done) = (Vec::new(), false, 0);
+    for &tenth in limits.tenths {
         let steps = rate / 10 * tenth - done;
-        elapsed += advance(&mut simulation, steps - 1, watch)?;
-        let before = simulation.positions().clone();
-        elapsed += advance(&mut simulation, 1, watch)?;
+        let in_time = run.advance(steps - 1)?;
+        let before = run.simulation.positions().clone();
+        given_up = !(in_time && run.advance(1)?);
+        if given_up {
+            break;
+        }
         done += steps;
-        match probe.moment(&simulation, &before, f64::from(tenth) * 0.1)? {
+        match probe.moment(&run.simulation, &before, f64::from(tenth) / 10.0)? {
             Some(moment) => moments.push(moment),
             None => break,
         }
     }
-    let counters = simulation.counters();
-    let simulated = f64::from(done.max(1)) / f64::from(rate);
-    #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let springs = (counters.springs_evaluated + counters.springs_checked) as f64 / simulated;
-    Ok(Trajectory { moments, springs, wall: elapsed.as_secs_f64() / simulated })
+    let simulated = run.simulation.steps().max(1) as f64 / f64::from(rate);
+    let wall = run.elapsed.as_secs_f64() / simulated;
+    Ok(Trajectory { moments, springs: springs(&run.simulation) / simulated, wall, given_up })
 }
 
-/// Makes `steps` steps and tells how long they took.
-fn advance(simulation: &mut Simulation, steps: u32, watch: &dyn Fn(u32) -> Result<()>) -> Result<Duration> {
-    let (mut elapsed, mut left) = (Duration::ZERO, steps);
-    while left > 0 {
-        let some = left.min(PATIENCE);
-        let started = Instant::now();
-        (0..some).for_each(|_| simulation.step());
-        elapsed += started.elapsed();
-        left -= some;
-        watch(some)?;
+/// Springs that were visited so far.
+#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+fn springs(simulation: &Simulation) -> f64 {
+    let counters = simulation.counters();
+    (counters.springs_evaluated + counters.springs_checked) as f64
+}
+
+/// A run in progress.
+struct Run<'a> {
+    simulation: Simulation,
+    elapsed: Duration,
+    limits: Limits<'a>,
+    watch: &'a dyn Fn(u32) -> Result<()>,
+}
+
+impl Run<'_> {
+    /// Makes `steps` steps; whether it did not become too dear before.
+    fn advance(&mut self, steps: u32) -> Result<bool> {
+        let mut left = steps;
+        while left > 0 {
+            if springs(&self.simulation) > self.limits.most_springs {
+                return Ok(false);
+            }
+            let some = left.min(PATIENCE);
+            let started = Instant::now();
+            (0..some).for_each(|_| self.simulation.step());
+            self.elapsed += started.elapsed();
+            left -= some;
+            (self.watch)(some)?;
+        }
+        Ok(true)
     }
-    Ok(elapsed)
 }
 
 /// Measures energies with velocities at the moment itself: `(x₊ - x₋) / 2 dt` over the steps before and

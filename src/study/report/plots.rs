@@ -72,6 +72,7 @@ fn cost_label(cost: Cost) -> &'static str {
 fn marker(panel: &PanelStudy, cell: &Measured, moment: usize, style: Style) -> Style {
     match cell.outcome {
         Outcome::Lost => Style { marker: Marker::Cross, ..style },
+        Outcome::TooDear => Style { marker: Marker::None, ..style },
         Outcome::EnergyAboveBound => Style { hollow: true, ..style },
         Outcome::Ok if panel.is_compared(cell, moment) => style,
         Outcome::Ok => Style { color: "--soft", ..style },
