@@ -51,6 +51,30 @@ fn the_study_shows_its_plots_and_pictures() {
     }
 }
 
+#[test]
+fn the_stability_map_shows_a_panel_for_each_density() {
+    let Some(browser) = Browser::find() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let ranges = ["--ks", "500,5000", "--density", "15,150", "--steps", "1..40:log5", "--time", "0.1"];
+    let page =
+        page(folder.path(), &[&["stability", "scene.json", "out"], &ranges[..]].concat(), "out/index.html");
+    for found in opened(&page, &browser) {
+        assert_eq!(found.count("plots"), 2, "{found:?}");
+        assert_eq!(found.count("marks"), 2 * 2 * 2, "two thresholds for each column: {found:?}");
+    }
+}
+
+#[test]
+fn the_gallery_shows_its_figures() {
+    let Some(browser) = Browser::find() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let only = ["--only", "part5-mball", "--only", "part1-all", "--size", "128x100"];
+    let page = page(folder.path(), &[&["gallery", "out"], &only[..]].concat(), "out/index.html");
+    for found in opened(&page, &browser) {
+        assert_eq!(found.count("images"), 2, "{found:?}");
+    }
+}
+
 /// The helper itself sees what is wrong.
 #[test]
 fn a_broken_page_is_found_out() {
