@@ -98,8 +98,8 @@ impl Viewport {
         let grid = |c: f32| (c * SUBPIXELS as f32).round_ties_even();
         let (x, y) = (grid(v.x), grid(v.y));
         #[expect(clippy::cast_possible_truncation, reason = "only used where it is within the limit")]
-        let snapped = [x as i32, self.flip(y as i32)];
-        (finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT).then_some(snapped)
+        let snapped = || [x as i32, self.flip(y as i32)];
+        (finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT).then(snapped)
     }
 
     /// Turns a snapped y up into y down, and back.
