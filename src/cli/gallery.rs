@@ -1,14 +1,13 @@
 //! `drape gallery`: every figure of the report, and a page of them.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 use clap::Parser;
 use serde::Serialize;
 
 use super::arguments::{Arguments, Command};
 use super::look::size;
-use super::progress::Progress;
+use super::progress::Tally;
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
 use crate::gallery::page::{self, Entry};
@@ -128,13 +127,9 @@ fn read(command: &str) -> Result<Shot> {
 
 /// Takes the pictures and tells how far it is.
 fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
-    let progress = Mutex::new((Progress::new(&session.ui, "simulating", shot::frames(shots)), 0));
+    let progress = Tally::new(&session.ui, "simulating", shot::frames(shots));
     let each_frame = || {
-        if let Ok(mut guard) = progress.lock() {
-            let (progress, frames) = &mut *guard;
-            *frames += 1;
-            progress.set(*frames);
-        }
+        progress.add(1);
         session.signals.check()
     };
     let shown = shot::take(shots, ledger, &each_frame)?;

@@ -1,5 +1,6 @@
 //! How far long work is: a bar on a terminal, else at most a line every five seconds.
 
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -42,6 +43,26 @@ impl Drop for Progress<'_> {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// The progress of work whose pieces end on any thread.
+pub(super) struct Tally<'a>(Mutex<(Progress<'a>, u64)>);
+
+impl<'a> Tally<'a> {
+    /// As [`Progress::new`].
+    pub(super) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
+        Self(Mutex::new((Progress::new(ui, what, total), 0)))
+    }
+
+    /// Says that `pieces` more are done; never more than all are shown.
+    pub(super) fn add(&self, pieces: u64) {
+        // A thread that panicked took the whole program with it.
+        if let Ok(mut guard) = self.0.lock() {
+            let (progress, done) = &mut *guard;
+            *done = (*done + pieces).min(progress.total);
+            progress.set(*done);
         }
     }
 }

@@ -1,11 +1,10 @@
 //! `drape stability`: outcome over stiffness, density and step.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 use serde::Serialize;
 
-use super::progress::Progress;
+use super::progress::Tally;
 use super::scene::SceneArgs;
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
@@ -71,13 +70,9 @@ impl Args {
     fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
         let axes = self.axes();
         let total = axes.pieces() + extremes::len();
-        let progress = Mutex::new((Progress::new(&session.ui, "trying", total as u64), 0));
+        let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
-            if let Ok(mut guard) = progress.lock() {
-                let (progress, count) = &mut *guard;
-                *count += 1;
-                progress.set(*count);
-            }
+            progress.add(1);
             session.signals.check()
         };
         let map = Map::new(scene, cloth, axes, &done)?;

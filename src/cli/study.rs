@@ -1,9 +1,8 @@
 //! `drape study`: speed against accuracy.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
-use super::progress::Progress;
+use super::progress::Tally;
 use super::scene::SceneArgs;
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
@@ -42,13 +41,9 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
     let files = [&page, &json, &table].map(|file| (file.as_path(), Content::Text));
     outputs::check(&args.scene.inputs(), files)?;
-    let progress = Mutex::new((Progress::new(&session.ui, "studying, steps", steps), 0));
+    let progress = Tally::new(&session.ui, "studying, steps", steps);
     let watch = |made: u32| {
-        if let Ok(mut guard) = progress.lock() {
-            let (bar, done) = &mut *guard;
-            *done = (*done + u64::from(made)).min(steps);
-            bar.set(*done);
-        }
+        progress.add(u64::from(made));
         session.signals.check().map_err(|stopped| {
             Error::new(stopped.kind, "stopped; what is finished is kept")
                 .with_help("the same command goes on from there")

@@ -42,6 +42,24 @@ pub fn image(alt: &str, png: &[u8]) -> String {
     format!("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escape(alt), base64(png))
 }
 
+/// What the cells of a table hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// Numbers, on the right of their column and never broken.
+    Numbers,
+    /// Text, in as many lines as it needs.
+    Text,
+}
+
+/// A table with `head` over `rows`, all HTML already; it scrolls sideways on a narrow screen.
+pub fn table(head: &[&str], cells: Cells, rows: impl Iterator<Item = Vec<String>>) -> String {
+    let class = if cells == Cells::Text { " class=\"text\"" } else { "" };
+    let head: String = head.iter().map(|name| format!("<th>{name}</th>")).collect();
+    let row = |row: Vec<String>| row.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>();
+    let rows: String = rows.map(|cells| format!("<tr>{}</tr>\n", row(cells))).collect();
+    format!("<div class=\"wide\"><table{class}>\n<tr>{head}</tr>\n{rows}</table></div>\n")
+}
+
 /// Text that stands for itself in HTML.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")

@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use super::{Cell, Column, Map};
 use crate::math::{exp, ln};
 use crate::output::axis::{Axis, Scale};
-use crate::output::page::{self, escape};
+use crate::output::page::{self, Cells, escape};
 use crate::output::plot::{Marker, Plot, Style};
 
 /// The page of `map` and the extremes `rows`, called `title`.
@@ -102,18 +102,6 @@ pub fn short(value: f64) -> String {
     if (1e-3..1e6).contains(&rounded) { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
-/// A table with `head` over `rows` of cells that are HTML already, numbers or text.
-fn table(head: &[&str], is_text: bool, rows: impl Iterator<Item = Vec<String>>) -> String {
-    let class = if is_text { " class=\"text\"" } else { "" };
-    let head: String = head.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let row = |cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    let rows: String = rows.map(row).collect();
-    format!("<div class=\"wide\"><table{class}>\n<tr>{head}</tr>\n{rows}</table></div>\n")
-}
-
 /// What theory asks for against what was found by trying.
 fn thresholds(map: &Map) -> String {
     let found = |steps: Option<f64>| steps.map_or_else(|| "–".to_owned(), |steps| format!("{steps:.1}"));
@@ -138,7 +126,7 @@ fn thresholds(map: &Map) -> String {
          rest to 0.1 %, in motion over {} s to 1 %. A dash: not found between half the first bound and \
          twice the safe one.</p>\n{}",
         map.axes.time,
-        table(&head, false, map.columns.iter().map(row)),
+        page::table(&head, Cells::Numbers, map.columns.iter().map(row)),
     )
 }
 
@@ -154,5 +142,5 @@ fn extremes(rows: &[Row]) -> String {
         vec![escape(row.what), sets.join(" "), promise.to_owned(), escape(&row.happened), kept.to_owned()]
     };
     let head = ["extreme", "set", "promise", "what happened", "kept"];
-    format!("<h2>Extremes</h2>\n{}", table(&head, true, rows.iter().map(row)))
+    format!("<h2>Extremes</h2>\n{}", page::table(&head, Cells::Text, rows.iter().map(row)))
 }

@@ -38,10 +38,10 @@ const NUDGE: f64 = 1e-8;
 /// As [`Simulation::new`].
 pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
     let stability = Stability::new(cloth, &scene.sim)?;
-    let expected = stability.omega_rest / stability.limit;
-    if scene.sim.integrator != Integrator::Verlet || !(expected > 0.0 && expected.is_finite()) {
+    if !has_limit(scene, &stability) {
         return Ok(None);
     }
+    let expected = stability.omega_rest / stability.limit;
     let mut rest = scene.clone();
     rest.planes.clear();
     rest.spheres.clear();
@@ -55,13 +55,16 @@ pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
     })
 }
 
-/// The steps a second at which `scene` becomes stable over `time` seconds, to 1 %; none if it is
-/// stable at half the bound at rest, or unstable at twice the safe one.
+/// The steps a second at which `scene` becomes stable over `time` seconds, to 1 %; none as for
+/// [`at_rest`], or if it is stable at half the bound at rest, or unstable at twice the safe one.
 ///
 /// # Errors
 /// As [`Simulation::new`].
 pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>> {
     let stability = Stability::new(cloth, &scene.sim)?;
+    if !has_limit(scene, &stability) {
+        return Ok(None);
+    }
     let mut scene = scene.clone();
     let steps_per_frame = f64::from(scene.sim.steps_per_frame);
     let ends = [0.5 * stability.omega_rest / stability.limit, 2.0 * stability.omega_safe / stability.limit];
@@ -70,6 +73,11 @@ pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>>
         let shortest = frames(SHORTEST / steps_per_frame, 1.0);
         Ok(run(&scene, frames(time, scene.sim.fps).max(shortest))?.outcome.is_unstable())
     })
+}
+
+/// Whether there is a step that is too long: Verlet's scheme, and springs that can vibrate.
+fn has_limit(scene: &Scene, stability: &Stability) -> bool {
+    scene.sim.integrator == Integrator::Verlet && stability.omega_rest > 0.0
 }
 
 /// The frames that `time` seconds take, at least one.

@@ -3,15 +3,7 @@
 use super::super::hull::{self, hull};
 use super::super::pictures::Pictures;
 use super::super::{Cost, PanelStudy, Study};
-use crate::output::page::escape;
-
-/// A table that can be scrolled sideways on a narrow screen.
-fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let head: String = head.iter().map(|name| format!("<th>{name}</th>")).collect();
-    let cells = |row: Vec<String>| row.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>();
-    let rows: String = rows.map(|row| format!("<tr>{}</tr>\n", cells(row))).collect();
-    format!("<div class=\"wide\"><table><tr>{head}</tr>\n{rows}</table></div>\n")
-}
+use crate::output::page::{Cells, escape, table};
 
 /// What to use for which time per simulated second.
 pub(super) fn advice(panel: &PanelStudy) -> String {
@@ -30,7 +22,7 @@ pub(super) fn advice(panel: &PanelStudy) -> String {
     });
     let time = panel.reference.floor.get(panel.moment()).map_or(0.0, |floor| floor.time);
     let error = format!("error at {time:.1} s (m)");
-    table(&["pay", "use", &error, "takes (s/s)", "springs visited (1/s)"], rows)
+    table(&["pay", "use", &error, "takes (s/s)", "springs visited (1/s)"], Cells::Numbers, rows)
 }
 
 /// What to draw with for which time.
@@ -46,7 +38,7 @@ pub(super) fn picture_advice(pictures: &Pictures) -> String {
             drawn.fragments.to_string(),
         ]
     });
-    table(&["pay", "use", "error (of 255)", "takes (ms)", "fragments"], rows)
+    table(&["pay", "use", "error (of 255)", "takes (ms)", "fragments"], Cells::Numbers, rows)
 }
 
 /// All cells of a panel.
@@ -75,7 +67,7 @@ pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
         }));
         row
     });
-    table(&head, rows)
+    table(&head, Cells::Numbers, rows)
 }
 
 /// All ways of drawing.
@@ -91,7 +83,11 @@ pub(super) fn ways(pictures: &Pictures) -> String {
             drawn.vertices.to_string(),
         ]
     });
-    table(&["way", "ms", "RMS error", "largest error", "pixels off by > 1", "fragments", "vertices"], rows)
+    table(
+        &["way", "ms", "RMS error", "largest error", "pixels off by > 1", "fragments", "vertices"],
+        Cells::Numbers,
+        rows,
+    )
 }
 
 /// The ways whose pictures are shown: the hull, and the worst.
