@@ -122,6 +122,7 @@ fn run(copy: &Path, caught_by: &str) -> (bool, String) {
         .env("CARGO_INCREMENTAL", "1")
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .env("RUST_BACKTRACE", "0")
+        .env("DRAPE_REQUIRE_GL", "1")
         .output()
         .unwrap();
     let text = [output.stdout, output.stderr].concat();
