@@ -4,7 +4,7 @@ mod guarded;
 mod locate;
 mod scheme;
 mod state;
-mod stiffness;
+mod variants;
 mod stopwatch;
 
 pub use stopwatch::Timings;

@@ -14,7 +14,6 @@ mod drawing;
 #[allow(dead_code, reason = "the test that it belongs to needs more of it")]
 #[path = "../../tests/gl/mod.rs"]
 mod gl;
-#[expect(dead_code, reason = "the test that it belongs to needs more of it")]
 #[path = "../../tests/naive/mod.rs"]
 mod naive;
 mod stepping;

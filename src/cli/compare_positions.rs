@@ -1,19 +1,20 @@
 //! `drape compare-positions`: where the positions of another program part from ours, and why.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::Session;
 use super::advance::start;
 use super::mistakes::{self, Mistake};
 use super::moments::Frames;
+use super::parting::{Difference, Ours, difference, first, largest, simulate};
 use super::scene::{Leniency, SceneArgs, frame_at};
 use super::states::{self, State};
-use super::{Session, progress::Progress};
-use crate::cloth::{Counters, Points};
+use crate::cloth::Counters;
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
-use crate::simulation::Simulation;
 
 /// How many states from the first that differs a mistake is held against. Further on chaos hides it.
 const WINDOW: usize = 10;
@@ -60,20 +61,6 @@ struct Report {
     /// The mistakes that were run and what each leaves of the difference, the best first.
     mistakes: Vec<Tried>,
     verdict: String,
-}
-
-/// The first difference.
-#[derive(Serialize)]
-struct Difference {
-    frame: u64,
-    /// Column and row of the first point that differs.
-    point: [usize; 2],
-    ours: [f64; 3],
-    theirs: [Option<f64>; 3],
-    /// Distance of that point, the largest in its frame, and in the last frame, in metres.
-    distance: Option<f64>,
-    largest: Option<f64>,
-    largest_at_the_end: Option<f64>,
 }
 
 /// A mistake that was run.
@@ -146,80 +133,13 @@ impl Args {
     }
 }
 
-/// Our state, and what was done to get there.
-struct Ours {
-    positions: Points,
-    counters: Counters,
-}
-
-/// The states of `count` frames from `first` on.
-fn simulate(mut simulation: Simulation, first: u64, count: usize, session: &Session) -> Result<Vec<Ours>> {
-    let mut progress = Progress::new(&session.ui, "simulating", first + count as u64 - 1);
-    let mut states = Vec::new();
-    for frame in first..first + count as u64 {
-        while simulation.frame() < frame {
-            session.signals.check()?;
-            simulation.advance_frame()?;
-            progress.set(simulation.frame());
-        }
-        states.push(Ours { positions: simulation.positions().clone(), counters: simulation.counters() });
-    }
-    Ok(states)
-}
-
-/// The first point that differs.
-fn first(ours: &Ours, theirs: &State, tolerance: f64) -> Option<usize> {
-    let differs = |p: usize, theirs: [f64; 3]| {
-        let ours: [f64; 3] = ours.positions.get(p).into();
-        // A distance that is no number is not within it.
-        let within = tolerance > 0.0 && between(ours, theirs) <= tolerance;
-        ours.map(f64::to_bits) != theirs.map(f64::to_bits) && !within
-    };
-    theirs.iter().enumerate().position(|(p, &theirs)| differs(p, theirs))
-}
-
-fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|axis| a[axis] - b[axis]);
-    (x * x + y * y + z * z).sqrt()
-}
-
-/// The largest distance of two points; infinite if one is no number.
-fn largest(ours: &Points, theirs: &State) -> f64 {
-    let distances = theirs.iter().enumerate().map(|(p, &theirs)| between(ours.get(p).into(), theirs));
-    distances.map(|d| if d.is_finite() { d } else { f64::INFINITY }).fold(0.0, f64::max)
-}
-
-/// What the report says of state `k`, the first that differs.
-fn difference(
-    ours: &[Ours],
-    theirs: &[State],
-    k: usize,
-    first_frame: u64,
-    tolerance: f64,
-    width: usize,
-) -> Option<Difference> {
-    let point = first(&ours[k], &theirs[k], tolerance)?;
-    let (here, there) = (ours[k].positions.get(point).into(), theirs[k][point]);
-    let finite = |value: f64| value.is_finite().then_some(value);
-    let at_the_end = ours.last().zip(theirs.last()).map(|(ours, theirs)| largest(&ours.positions, theirs));
-    Some(Difference {
-        frame: first_frame + k as u64,
-        point: [point % width, point / width],
-        ours: here,
-        theirs: there.map(finite),
-        distance: finite(between(here, there)),
-        largest: finite(largest(&ours[k].positions, &theirs[k])),
-        largest_at_the_end: at_the_end.and_then(finite),
-    })
-}
-
 /// Runs every mistake over the states `window`; the one that comes nearest to `theirs` first.
 fn try_all(
     mistakes: &[Mistake],
     ours: &[Ours],
     theirs: &[State],
     first_frame: u64,
-    window: std::ops::Range<usize>,
+    window: Range<usize>,
     session: &Session,
 ) -> Result<Vec<Tried>> {
     let error = |states: &[Ours]| -> f64 {
@@ -291,8 +211,7 @@ impl Report {
 
 /// What no run can tell apart, but acted before the positions parted.
 fn suspects(counters: Counters, scene: &Scene) -> String {
-    let self_collision =
-        "self-collision (boxes told apart by a rounded hash, or cut towards zero; order of points)";
+    let self_collision = "self-collision (boxes told apart by a hash; order of points)";
     let planes = "collision with planes (the offset of 0.0001 m, its side, friction)";
     let spheres = "collision with spheres (friction, points at the centre)";
     let limit = "the stretch limit (its order, pinned ends)";

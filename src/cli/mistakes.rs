@@ -1,17 +1,30 @@
-//! Mistakes that programs of students make, each run here as a changed scene.
+//! Mistakes that programs of students make, each run here as a changed scene or simulation.
+
+use std::num::Wrapping;
 
 use crate::cloth::springs::SpringKind;
 use crate::error::Result;
 use crate::scene::{Cloth, Scene, SelfCollision};
 use crate::simulation::Simulation;
 
-/// A mistake, and the scene with which the method does what the mistaken program does.
+/// A mistake, and the simulation that does what the mistaken program does.
 pub(super) struct Mistake {
     /// What is done instead of what.
     pub(super) name: &'static str,
     scene: Scene,
-    /// Stiffness of bending springs, in N/m, if it is not that of the scene.
-    bending: Option<f64>,
+    /// What no scene can say.
+    change: Option<Change>,
+}
+
+/// A change of a simulation.
+#[derive(Clone, Copy)]
+enum Change {
+    /// Stiffness of bending springs, in N/m.
+    Bending(f64),
+    /// Height above a plane at which points are put back, in metres.
+    PlaneOffset(f64),
+    /// What tells the boxes of self-collision apart.
+    BoxHash(fn([i64; 3]) -> i64),
 }
 
 impl Mistake {
@@ -21,7 +34,12 @@ impl Mistake {
     /// As [`Simulation::new`].
     pub(super) fn simulation(&self) -> Result<Simulation> {
         let mut simulation = Simulation::new(&self.scene)?;
-        self.bending.into_iter().for_each(|k| simulation.set_stiffness(SpringKind::Bending, k));
+        match self.change {
+            Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
+            Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),
+            Some(Change::BoxHash(hash)) => simulation.set_box_hash(hash),
+            None => {}
+        }
         simulation.allow_unstable();
         Ok(simulation)
     }
@@ -30,49 +48,95 @@ impl Mistake {
 /// The mistakes that change anything in `scene`.
 pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
     let Some(cloth) = &scene.cloth else { return Vec::new() };
-    let with = |name, change: &dyn Fn(&mut Cloth)| {
-        let mut scene = scene.clone();
-        scene.cloth.as_mut().into_iter().for_each(change);
-        Mistake { name, scene, bending: None }
-    };
-    let ks = cloth.ks;
-    let scenes = [
-        with("points width / W apart instead of width / (W - 1)", &wide_pitch),
-        with("pins read as [row, column] instead of [column, row]", &|cloth| {
-            cloth.pinned.iter_mut().for_each(|pin| pin.reverse());
-        }),
-        with("pin k read as a list of columns of row k", &|cloth| cloth.pinned = lists(&cloth.pinned)),
-        with("damping not divided by 100", &|cloth| cloth.damping *= 100.0),
-        without("no self-collision", scene, |scene| scene.sim.self_collision = SelfCollision::Off),
-        without(
-            "self-collision with points of other boxes too (boxes told apart by a rounded or cut number)",
-            scene,
-            |scene| {
-                scene.sim.self_collision = SelfCollision::Neighbors;
-            },
-        ),
-        without("no stretch limit", scene, |scene| scene.sim.stretch_limit = None),
-    ];
     let fits = |cloth: &Cloth| {
         cloth.pinned.iter().all(|&[i, j]| i < cloth.num_width_points && j < cloth.num_height_points)
     };
-    let changed = scenes.into_iter().filter(|mistake| mistake.scene != *scene);
-    let possible = changed.filter(|mistake| mistake.scene.cloth.as_ref().is_some_and(fits));
-    let mut mistakes: Vec<Mistake> = possible.collect();
-    if cloth.enable_bending && ks > 0.0 {
-        let stiff = with("bending springs as stiff as the others, without the 0.2", &|_| ());
-        mistakes.push(Mistake { bending: Some(ks), ..stiff });
-        let soft =
-            with("0.2 ks for all springs, not for bending springs alone", &|cloth| cloth.ks = ks * 0.2);
-        mistakes.push(Mistake { bending: Some(ks * 0.2), ..soft });
+    let mut mistakes = Vec::from(scenes(scene));
+    mistakes.retain(|mistake| mistake.scene != *scene && mistake.scene.cloth.as_ref().is_some_and(fits));
+    if cloth.enable_bending && cloth.ks > 0.0 {
+        mistakes.extend(bending(scene, cloth.ks));
+    }
+    if !scene.planes.is_empty() {
+        mistakes.extend(plane_offsets(scene));
+    }
+    if scene.sim.self_collision == SelfCollision::SameBox {
+        mistakes.extend(box_hashes(scene));
     }
     mistakes
 }
 
-fn without(name: &'static str, scene: &Scene, change: impl Fn(&mut Scene)) -> Mistake {
-    let mut scene = scene.clone();
-    change(&mut scene);
-    Mistake { name, scene, bending: None }
+/// Mistakes that are another scene.
+fn scenes(scene: &Scene) -> [Mistake; 7] {
+    let with = |name, change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        Mistake { name, scene, change: None }
+    };
+    let with_cloth = |name, change: &dyn Fn(&mut Cloth)| {
+        with(name, &|scene| scene.cloth.as_mut().into_iter().for_each(change))
+    };
+    [
+        with_cloth("points width / W apart instead of width / (W - 1)", &wide_pitch),
+        with_cloth("pins read as [row, column] instead of [column, row]", &|cloth| {
+            cloth.pinned.iter_mut().for_each(|pin| pin.reverse());
+        }),
+        with_cloth("pin k read as a list of columns of row k", &|cloth| cloth.pinned = lists(&cloth.pinned)),
+        with_cloth("damping not divided by 100", &|cloth| cloth.damping *= 100.0),
+        with("no self-collision", &|scene| scene.sim.self_collision = SelfCollision::Off),
+        with("self-collision with points of other boxes too (boxes told apart by a hash)", &|scene| {
+            scene.sim.self_collision = SelfCollision::Neighbors;
+        }),
+        with("no stretch limit", &|scene| scene.sim.stretch_limit = None),
+    ]
+}
+
+fn bending(scene: &Scene, ks: f64) -> [Mistake; 2] {
+    let mut soft = scene.clone();
+    soft.cloth.iter_mut().for_each(|cloth| cloth.ks = ks * 0.2);
+    [
+        changed("bending springs as stiff as the others, without the 0.2", scene, Change::Bending(ks)),
+        changed("0.2 ks for all springs, not for bending springs alone", &soft, Change::Bending(ks * 0.2)),
+    ]
+}
+
+fn plane_offsets(scene: &Scene) -> [Mistake; 2] {
+    [
+        changed("points put onto the plane, not 0.0001 m above it", scene, Change::PlaneOffset(0.0)),
+        changed("points put 0.0001 m behind the plane, not above it", scene, Change::PlaneOffset(-1e-4)),
+    ]
+}
+
+/// What programs were found to tell boxes apart by. Only what makes neighbouring boxes one shows: the
+/// points of others are not close.
+fn box_hashes(scene: &Scene) -> [Mistake; 2] {
+    let cut = "boxes by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
+    let sum = "boxes told apart by x² + y² + z³ of coordinates cut towards zero";
+    [
+        changed(cut, scene, Change::BoxHash(|numbers| joined(numbers.map(towards_zero)))),
+        changed(
+            sum,
+            scene,
+            Change::BoxHash(|numbers| {
+                let [x, y, z] = numbers.map(towards_zero).map(Wrapping);
+                (x * x + y * y + z * z * z).0
+            }),
+        ),
+    ]
+}
+
+/// The number that a cut towards zero gives for what rounding down gives `number`.
+fn towards_zero(number: i64) -> i64 {
+    if number < 0 { number + 1 } else { number }
+}
+
+/// Three numbers of 21 bits as one.
+fn joined([x, y, z]: [i64; 3]) -> i64 {
+    let bits = |number: i64| number & 0x1F_FFFF;
+    bits(x) << 42 | bits(y) << 21 | bits(z)
+}
+
+fn changed(name: &'static str, scene: &Scene, change: Change) -> Mistake {
+    Mistake { name, scene: scene.clone(), change: Some(change) }
 }
 
 /// A smaller cloth of the same mass and with the same number of points.

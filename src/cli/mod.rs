@@ -20,6 +20,7 @@ mod look;
 mod mistakes;
 mod moments;
 mod outputs;
+mod parting;
 mod progress;
 mod render;
 mod scene;

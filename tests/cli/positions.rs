@@ -74,20 +74,35 @@ fn mistakes_that_can_be_run_are_named() {
 }
 
 #[test]
-fn a_missing_offset_of_the_plane_is_suspected() {
+fn a_missing_offset_of_the_plane_is_named() {
     let text = HANGING.replace(
         "\"cloth\"",
         r#""plane": {"point": [0, 0.97, 0], "normal": [0, 1, 0], "friction": 0.5}, "cloth""#,
     );
     let verdict = verdict(&text, Mistakes { no_plane_offset: true, ..Mistakes::default() }, 12);
-    assert!(verdict.contains("collision with planes (the offset of 0.0001 m"), "{verdict}");
+    assert_eq!(verdict, "this is the mistake: points put onto the plane, not 0.0001 m above it");
 }
 
 #[test]
-fn a_rounded_hash_of_the_boxes_is_suspected() {
+fn boxes_that_are_taken_for_one_are_named() {
     let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1").replace("0.0095", "0.06");
-    let verdict = verdict(&text, Mistakes { float_hash: true, ..Mistakes::default() }, 10);
-    assert!(verdict.contains("told apart by a rounded"), "{verdict}");
+    let none = Mistakes::default();
+    for (mistakes, name) in [
+        (Mistakes { cut_boxes: true, ..none }, "boxes by coordinates cut towards zero"),
+        (Mistakes { float_hash: true, ..none }, "boxes told apart by x² + y² + z³"),
+    ] {
+        let verdict = verdict(&text, mistakes, 10);
+        assert!(verdict.starts_with(&format!("this is the mistake: {name}")), "{verdict}");
+    }
+}
+
+#[test]
+fn collisions_that_acted_are_suspected_of_what_no_mistake_explains() {
+    let text = HANGING.replace("0.0095", "0.06");
+    let mut numbers = positions(&text, Mistakes::default(), 5);
+    numbers[4 * 3 * 99 + 50] += 0.25;
+    let verdict = compared(&text, raw(&numbers), &[], 1)["verdict"].clone();
+    assert!(verdict.as_str().is_some_and(|v| v.contains("acted self-collision")), "{verdict}");
 }
 
 #[test]
