@@ -43,7 +43,8 @@ fn run(command: &str, change: &str, fps: &str) -> Value {
 /// What a line of a page prints.
 fn printed(line: &str) -> Value {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("drape"));
-    let output = command.args(line.split(' ').skip(1)).output().unwrap();
+    let words = line.split(' ').map(|word| word.trim_matches('\''));
+    let output = command.args(words.skip(1)).output().unwrap();
     assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }

@@ -44,6 +44,10 @@ pub(super) struct Args {
     bench: Option<u32>,
 }
 
+/// What is told of a picture that shows the background alone.
+const NOTHING_SEEN: &str = "warning: nothing is seen in the picture: no object is where the camera looks\n  \
+     = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time";
+
 /// What was drawn.
 #[derive(Serialize)]
 struct Summary {
@@ -128,6 +132,9 @@ impl Args {
         let &Picture { width, height, stats, .. } = picture;
         let (frame, time) = (simulation.frame(), simulation.time());
         session.ui.note(&format!("{}: {width} x {height}, frame {frame}, {time} s", path.display()));
+        if stats.fragments == 0 {
+            session.ui.note(NOTHING_SEEN);
+        }
         if !self.stats && !session.ui.json {
             return Ok(());
         }

@@ -23,7 +23,7 @@ pub(super) struct Changes {
     /// Change the scene by a JSON merge patch (RFC 7396), repeatable; patches come before sets
     #[arg(long = "patch", value_name = "FILE")]
     patches: Vec<PathBuf>,
-    /// Change one value of the scene, such as cloth.ks=500, repeatable
+    /// Change one value of the scene, such as cloth.ks=500, repeatable; quote what has brackets
     #[arg(long = "set", value_name = "PATH=JSON")]
     sets: Vec<String>,
 }

@@ -246,9 +246,11 @@ fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
     let stiff = ["--set", "cloth.ks=1e12"];
     for (arguments, codes, says) in [
         (&[][..], &[][..], "valid"),
-        (&["--set", "material.texture=granite"], &[], "valid"),
+        (&["--set", "material.texture=granite"], &["check::texture"], "granite"),
+        (&["--set", "sphere.material.environment=hall"], &["check::texture"], "built in: cube"),
+        (&["--textures", "set"], &[], "valid"),
         (&texture, &["check::texture"], "granite"),
-        (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "texture_1"),
+        (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "from textures/"),
         (&["--set", "material.shader=mirror", "--textures", "set"], &["check::texture"], "posx"),
         (&["--set", "material.shader=texture"], &[], "valid"),
         (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
@@ -257,7 +259,9 @@ fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
     ] {
         let arguments = [&["check", "small.json"], arguments].concat();
         let text = String::from_utf8(scratch.succeed(&arguments)).expect("text");
-        assert!(text.contains(says) && text.contains("small.json: valid"), "{arguments:?}: {text}");
+        let verdict = ["valid", "valid, with a warning", "valid, with 2 warnings"][codes.len()];
+        assert!(text.contains(says), "{arguments:?}: {text}");
+        assert!(text.ends_with(&format!("small.json: {verdict}\n")), "{arguments:?}: {text}");
         let object = scratch.json(&[&arguments[..], &["--json"]].concat());
         let warnings = object["files"][0]["warnings"].as_array().expect("a list").iter();
         let found: Vec<_> = warnings.map(|warning| warning["code"].as_str().expect("a code")).collect();

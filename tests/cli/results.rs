@@ -43,6 +43,22 @@ fn pictures_to_standard_output_are_those_of_the_file() {
 }
 
 #[test]
+fn a_picture_of_the_background_alone_is_warned_of() {
+    let scratch = Scratch::new();
+    let said = |more: &[&str]| {
+        let run = scratch.run(&[&["render", "small.json", "out.png", "--frame", "0"], more].concat());
+        assert_eq!(run.code, Some(0));
+        run.stderr
+    };
+    let away = ["--set", "camera.target=[50,0,0]"];
+    let warning = said(&away);
+    assert!(warning.contains("warning: nothing is seen") && warning.contains("camera.target"), "{warning}");
+    assert_eq!(said(&[&away[..], &["-q"]].concat()), "");
+    let seen = said(&["--shader", "wireframe"]);
+    assert!(!seen.contains("warning"), "{seen}");
+}
+
+#[test]
 fn time_and_frame_name_the_same_moment() {
     let scratch = Scratch::new();
     let hash = |arguments: &[&str]| {

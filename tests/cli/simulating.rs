@@ -53,6 +53,16 @@ fn export_is_the_simulated_mesh() {
 }
 
 #[test]
+fn export_tells_people_what_it_wrote() {
+    let scratch = Scratch::new();
+    let run = |quiet: &[&str]| {
+        scratch.run(&[&["export", "small.json", "out.obj", "--time", "0.1"], quiet].concat()).stderr
+    };
+    assert_eq!(run(&[]), "out.obj: 25 points, 32 triangles, frame 9, 0.1 s\n");
+    assert_eq!(run(&["-q"]), "");
+}
+
+#[test]
 fn export_tells_programs_what_it_wrote() {
     let scratch = Scratch::new();
     let summary = scratch.json(&["export", "small.json", "out.obj", "--frame", "3", "--json"]);

@@ -15,7 +15,7 @@ fn assert_rendered(error: &Error, golden: &str) {
 }
 
 #[test]
-fn all_errors_of_a_file_come_at_once() {
+fn all_errors_of_a_file_come_at_once_from_its_first_line_to_its_last() {
     let text = r#"{
   "cloth": {
     "width": 1,
@@ -37,6 +37,14 @@ fn all_errors_of_a_file_come_at_once() {
 }
 "#;
     let golden = r#"
+error[scene::missing_key]: `cloth` is missing `damping`
+ --> scene.json:2:12
+  |
+2 |   "cloth": {
+  |            ^ in the object that starts here
+  |
+  = help: `damping` is a number from 0 to 100 %
+
 error[scene::wrong_type]: `cloth.height` is text but must be a number above 0, from 1e-15 to 1e15 m
  --> scene.json:4:15
   |
@@ -45,13 +53,22 @@ error[scene::wrong_type]: `cloth.height` is text but must be a number above 0, f
   |
   = help: write the number without quotes
 
-error[scene::missing_key]: `cloth` is missing `damping`
- --> scene.json:2:12
-  |
-2 |   "cloth": {
-  |            ^ in the object that starts here
-  |
-  = help: `damping` is a number from 0 to 100 %
+error[scene::pin_outside]: pinned point `cloth.pinned.1` is outside the grid
+  --> scene.json:10:16
+   |
+ 5 |     "num_width_points": 50,
+   |                         -- `num_width_points` is set here
+...
+10 |       [0, 0], [50, 0]
+   |                ^^ must be from 0 to 49: there are 50 points
+
+error[scene::unknown_key]: unknown key `cloth.dampning`
+  --> scene.json:12:5
+   |
+12 |     "dampning": 0.2,
+   |     ^^^^^^^^^^ not a key of this object
+   |
+   = help: did you mean `damping`?
 
 error[scene::out_of_range]: `cloth.density` is -150 but must be above 0, from 1e-15 to 1e15 kg/m²
   --> scene.json:13:16
@@ -72,15 +89,6 @@ error[scene::unknown_key]: unknown key `cloth.dampning`
    |     ^^^^^^^^^^ not a key of this object
    |
    = help: did you mean `damping`?
-
-error[scene::pin_outside]: pinned point `cloth.pinned.1` is outside the grid
-  --> scene.json:10:16
-   |
- 5 |     "num_width_points": 50,
-   |                         -- `num_width_points` is set here
-...
-10 |       [0, 0], [50, 0]
-   |                ^^ must be from 0 to 49: there are 50 points
 "#;
     assert_rendered(&error(text, &[]), golden);
 }

@@ -72,6 +72,16 @@ fn a_file_that_cannot_be_read_is_an_input_error() {
 }
 
 #[test]
+fn a_file_of_nearly_the_name_is_offered() {
+    let help = |path: &str| load(Path::new(path), &Overrides::default()).unwrap_err().help;
+    assert_eq!(help("scenes/spere.json"), "did you mean `scenes/sphere.json`?");
+    assert_eq!(help("Cargo.tml"), "did you mean `Cargo.toml`?");
+    for path in ["scenes/blanket.json", "scene/sphere.json", "", "scenes"] {
+        assert_eq!(help(path), "", "{path}");
+    }
+}
+
+#[test]
 fn a_set_that_is_not_path_and_value_is_a_usage_error() {
     let path = format!("{}=1", ["a"; 65].join("."));
     for argument in ["cloth.ks", "", "=5", "cloth..ks=5", ".ks=5", "cloth.=5", &path] {

@@ -169,6 +169,37 @@ fn unknown_keys_are_refused_at_every_level() {
 }
 
 #[test]
+fn a_key_of_another_object_is_shown_where_it_belongs() {
+    for (set, help) in [
+        ("render.shader=bump", "did you mean `material.shader`?"),
+        ("shader=bump", "did you mean `material.shader`?"),
+        ("cloth.shader=bump", "did you mean `cloth.material.shader`?"),
+        ("density=3", "did you mean `cloth.density`?"),
+        ("friction=0", "did you mean `sphere.friction` or `plane.friction`?"),
+        ("sphere.time=0", "did you mean `render.time`?"),
+        ("render.sim=0", "did you mean `sim`?"),
+        // A slip of the key that is there comes first.
+        ("render.site=0", "did you mean `size`?"),
+    ] {
+        let text =
+            format!("{{{CLOTH}, \"sphere\": {{\"origin\": [0, 0, 0], \"radius\": 1, \"friction\": 0}}}}");
+        assert_eq!(error(&text, &[set]).diagnostics[0].help, help, "--set {set}");
+    }
+}
+
+#[test]
+fn a_code_is_explained() {
+    for (value, found) in [("\"horizontal\"", "is text but must be the number "), ("2", "is 2 but must be ")]
+    {
+        let error = error(&format!("{{{CLOTH}}}"), &[&format!("cloth.orientation={value}")]);
+        let message = &error.diagnostics[0].message;
+        assert_eq!(*message, format!("`cloth.orientation` {found}0 (horizontal) or 1 (vertical)"));
+    }
+    let samples = error("{}", &["render.samples=2"]);
+    assert_eq!(samples.diagnostics[0].message, "`render.samples` is 2 but must be 1, 4, 8 or 16");
+}
+
+#[test]
 fn relations_between_values_are_checked() {
     refuses("cloth.pinned=[[5,0],[0,5],[-1,0],[4,4],[1e9,1e300]]", &["scene::out_of_range cloth.pinned.4.1"]);
     refuses(
@@ -203,11 +234,16 @@ fn a_set_cannot_go_through_a_value() {
     refuses("sphere.1.radius=1", &["scene::unknown_key sphere.1"]);
     let two = "{\"sphere\": [{\"origin\": [0, 0, 0], \"radius\": 1, \"friction\": 0}, {}]}";
     let found = error(two, &["sphere.2.radius=1", "sphere.radius=1"]);
-    assert_eq!(
-        summary(&found)[..2],
-        ["scene::no_such_place 1:8 sphere.2", "scene::no_such_place 1:8 sphere.radius"]
+    let summary = summary(&found);
+    // What is wrong in the file comes first.
+    let (file, sets) = summary.split_at(summary.len() - 2);
+    assert!(
+        !file.is_empty() && file.iter().all(|found| found.starts_with("scene::missing_key 1:")),
+        "{file:?}"
     );
-    assert_eq!(found.diagnostics[1].message, "there is no `sphere.radius`: `sphere` is a list");
+    assert_eq!(sets, ["scene::no_such_place 1:8 sphere.2", "scene::no_such_place 1:8 sphere.radius"]);
+    let last = found.diagnostics.last().unwrap();
+    assert_eq!(last.message, "there is no `sphere.radius`: `sphere` is a list");
 }
 
 #[test]
