@@ -68,8 +68,8 @@ const CLOTH: Keys = &[
     ),
     (
         "pinned",
-        "Points that never move, as places `[i, j]` in the grid counted from 0: `[[0, 0], [49, 0]]` holds \
-         two corners of 50 x 50 points.",
+        "Points that never move, as grid points `[x, y]` counted from 0: `[[0, 0], [49, 0]]` holds two \
+         corners of 50 x 50 points.",
     ),
     (
         "damping",
@@ -104,11 +104,7 @@ const PLANE: Keys = &[
         "friction",
         "Part of the sliding that contact takes away: 0 is smooth, 1 holds a point where it was a step before.",
     ),
-    (
-        "material",
-        "What the plane looks like. A key that is left out is as in the scene's `material`, but the colour \
-         is then a light grey, 0.7, unless the scene's `material` gives one.",
-    ),
+    ("material", "What the plane looks like. A key that is left out is as in the scene's `material`."),
 ];
 
 const SIM: Keys = &[
@@ -117,7 +113,7 @@ const SIM: Keys = &[
         "steps_per_frame",
         "Steps of the simulation in each frame: a step lasts 1 / (fps · steps_per_frame) seconds.",
     ),
-    ("gravity", "The acceleration of everything, `[x, y, z]`."),
+    ("gravity", "The acceleration of every point, `[x, y, z]`."),
     (
         "integrator",
         "The scheme that moves the points. `verlet` is the course's and the cheapest where its steps are \
@@ -218,8 +214,8 @@ const MATERIAL: Keys = &[
     ),
     (
         "color",
-        "The colour, red, green and blue, 1 for all of it: of the lines of `wireframe`, and of the diffuse \
-         light of `diffuse`, `phong`, `bump` and `displacement`.",
+        "The colour: of `wireframe`, and of the diffuse light of `diffuse`, `phong`, `bump` and `displacement`. \
+         Planes are a light grey, 0.7, if it is left out.",
     ),
     ("ka", "Weight of the ambient light, which is everywhere the same."),
     ("kd", "Weight of the diffuse light, which is strongest where the surface faces the light."),
