@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use super::progress::Progress;
+use crate::cloth::Points;
 use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
 use crate::error::{Error, Kind, Result};
@@ -22,7 +23,24 @@ pub(super) fn start(
     allow_unstable: bool,
     session: &Session,
 ) -> Result<Simulation> {
-    let mut simulation = Simulation::new(scene)?;
+    begin(scene, frames, None, allow_unstable, session)
+}
+
+/// As [`start`], with the points at `x` if that is given.
+///
+/// # Errors
+/// As [`start`] and [`Simulation::starting_at`].
+pub(super) fn begin(
+    scene: &Scene,
+    frames: u64,
+    x: Option<&Points>,
+    allow_unstable: bool,
+    session: &Session,
+) -> Result<Simulation> {
+    let mut simulation = match x {
+        Some(x) => Simulation::starting_at(scene, x)?,
+        None => Simulation::new(scene)?,
+    };
     if allow_unstable {
         simulation.allow_unstable();
     }

@@ -12,7 +12,7 @@ use serde::Serialize;
 use self::parting::{Difference, Ours};
 use self::verdict::{Case, Tried, Verdict};
 use super::Session;
-use super::advance::start;
+use super::advance::begin;
 use super::moments::Frames;
 use super::scene::{Leniency, SceneArgs, frame_at};
 use crate::error::{Error, Kind, Result};
@@ -64,9 +64,14 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let plural = if theirs.len() == 1 { "" } else { "s" };
     session.ui.note(&format!("{} state{plural}, the first at frame {first_frame}", theirs.len()));
     let last_frame = first_frame + theirs.len() as u64 - 1;
-    let simulation = start(&scene, last_frame, args.leniency.allow_unstable, session)?;
+    let mut simulation = begin(&scene, last_frame, None, args.leniency.allow_unstable, session)?;
+    let start = parting::start_of(&theirs[0], simulation.positions(), cloth).filter(|_| first_frame == 0);
+    if let Some(start) = &start {
+        session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
+        simulation = begin(&scene, last_frame, Some(start), args.leniency.allow_unstable, session)?;
+    }
     let ours = Ours::simulate(simulation, first_frame, theirs.len(), session)?;
-    let case = Case { scene: &scene, cloth, first_frame, ours: &ours, theirs: &theirs };
+    let case = Case { scene: &scene, cloth, first_frame, start, ours: &ours, theirs: &theirs };
     let difference = Difference::first(&case, args.tolerance);
     let Verdict { words, mistakes } = match &difference {
         None => Verdict::only("the positions are those of the method"),

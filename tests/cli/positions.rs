@@ -173,6 +173,27 @@ fn other_frames_and_orders_are_recognised() {
     assert!(broken.contains("column 5, row 1 is no number at frame 5"), "{broken}");
 }
 
+/// The depths at which a vertical cloth starts are random in every program but ours.
+#[test]
+fn a_vertical_cloth_starts_where_the_file_says() {
+    let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1");
+    let run = |mistakes| {
+        let scene = scene(&text);
+        let mut cloth = Cloth::new(&scene, mistakes);
+        cloth.start_at(cloth.x.iter().map(|&[x, y, z]| [x, y, -0.5 * z]).collect());
+        let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
+        for _ in 1..6 {
+            (0..scene.sim.steps_per_frame).for_each(|_| cloth.step());
+            numbers.extend(cloth.x.as_flattened());
+        }
+        raw(&numbers)
+    };
+    compared(&text, run(Mistakes::default()), &[], 0);
+    let stiff = run(Mistakes { stiff_bending: true, ..Mistakes::default() });
+    let verdict = compared(&text, stiff, &[], 1)["verdict"].to_string();
+    assert!(verdict.contains("behaves like the mistake: bending springs as stiff"), "{verdict}");
+}
+
 #[test]
 fn frames_are_found_by_their_number_or_given() {
     let numbers = positions(HANGING, Mistakes::default(), 10);

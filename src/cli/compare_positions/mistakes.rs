@@ -2,9 +2,10 @@
 
 use std::num::Wrapping;
 
+use crate::cloth::Points;
 use crate::cloth::springs::SpringKind;
 use crate::error::Result;
-use crate::scene::{Cloth, Scene, SelfCollision};
+use crate::scene::{Cloth, Orientation, Scene, SelfCollision};
 use crate::simulation::Simulation;
 
 /// A mistake, and the simulation that does what the mistaken program does.
@@ -28,12 +29,15 @@ enum Change {
 }
 
 impl Mistake {
-    /// A simulation that makes the mistake.
+    /// A simulation that makes the mistake, from `start` on if that is given.
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub(super) fn simulation(&self) -> Result<Simulation> {
-        let mut simulation = Simulation::new(&self.scene)?;
+    pub(super) fn simulation(&self, start: Option<&Points>) -> Result<Simulation> {
+        let mut simulation = match start {
+            Some(x) => Simulation::starting_at(&self.scene, x)?,
+            None => Simulation::new(&self.scene)?,
+        };
         match self.change {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
             Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),
@@ -83,6 +87,12 @@ fn scenes(scene: &Scene) -> Vec<Mistake> {
             cloth.pinned.iter_mut().for_each(|pin| pin.reverse());
         }),
         with_cloth("pin k read as a list of columns of row k", |cloth| cloth.pinned = lists(&cloth.pinned)),
+        with_cloth("the other orientation", |cloth| {
+            cloth.orientation = match cloth.orientation {
+                Orientation::Horizontal => Orientation::Vertical,
+                Orientation::Vertical => Orientation::Horizontal,
+            };
+        }),
         with_cloth("no pins", |cloth| cloth.pinned.clear()),
         with_cloth("damping not divided by 100", |cloth| cloth.damping *= 100.0),
         with_cloth("no damping", |cloth| cloth.damping = 0.0),

@@ -7,7 +7,12 @@ use super::states::State;
 use super::verdict::Case;
 use crate::cloth::{Counters, Points};
 use crate::error::Result;
+use crate::scene::{Cloth, Orientation};
 use crate::simulation::Simulation;
+
+/// Largest depth of a point of a vertical cloth at its start, in metres, and what rounding moves it by.
+const JITTER: f64 = 1e-3;
+const ROUNDING: f64 = 1e-11;
 
 /// The first difference.
 #[derive(Serialize)]
@@ -71,6 +76,22 @@ impl Difference {
             largest_at_the_end: largest(case.theirs.len() - 1),
         })
     }
+}
+
+/// Where a vertical cloth starts whose points stand at other random depths than ours: `theirs`, if it
+/// differs from `ours` in nothing else.
+pub(super) fn start_of(theirs: &State, ours: &Points, cloth: &Cloth) -> Option<Points> {
+    let mut start = ours.clone();
+    for (p, &at) in theirs.iter().enumerate() {
+        let [x, y, z] = [0, 1, 2].map(|axis| (at[axis] - ours.get(p)[axis]).abs());
+        // A NaN is not near either.
+        let near = x <= ROUNDING && y <= ROUNDING && z <= 2.0 * JITTER;
+        if !near {
+            return None;
+        }
+        start.set(p, at.into());
+    }
+    (cloth.orientation == Orientation::Vertical).then_some(start)
 }
 
 fn first(ours: &Points, theirs: &State, tolerance: f64) -> Option<usize> {

@@ -13,7 +13,7 @@ use super::super::scene::frame_at;
 use super::mistakes::{self, Mistake};
 use super::parting::{Ours, largest};
 use super::states::State;
-use crate::cloth::Counters;
+use crate::cloth::{Counters, Points};
 use crate::error::{Kind, Result};
 use crate::scene::{Cloth, Scene};
 use crate::simulation::Simulation;
@@ -40,6 +40,8 @@ pub(super) struct Case<'a> {
     pub(super) scene: &'a Scene,
     pub(super) cloth: &'a Cloth,
     pub(super) first_frame: u64,
+    /// Where the cloth starts, if not where the method lets it start.
+    pub(super) start: Option<Points>,
     pub(super) ours: &'a [Ours],
     pub(super) theirs: &'a [State],
 }
@@ -101,7 +103,11 @@ impl Case<'_> {
         }
         let mistakes = self.try_all(&mistakes::all(self.scene), k, session)?;
         let words = match mistakes.first() {
-            Some(best) if best.left <= EXPLAINS => format!("this behaves like the mistake: {}", best.mistake),
+            Some(best) if best.left <= EXPLAINS => {
+                let all = mistakes.iter().take_while(|tried| tried.left <= EXPLAINS);
+                let names: Vec<&str> = all.map(|tried| tried.mistake).collect();
+                format!("this behaves like the mistake: {}", names.join("; or: "))
+            }
             Some(best) if best.left <= RESEMBLES => {
                 format!("this is most like the mistake: {}", best.mistake)
             }
@@ -122,7 +128,8 @@ impl Case<'_> {
         let (width, frame) = (self.cloth.num_width_points, self.first_frame + k as u64);
         Some(format!(
             "the point of column {}, row {} is no number at frame {frame}: look for a division by 0, such as by \
-             the length of a spring or the distance of two points at one place",
+             the length of a spring or the distance of two points at one place, or a step so long that positions \
+             grow without end",
             p % width,
             p / width
         ))
@@ -145,7 +152,10 @@ impl Case<'_> {
     /// Another frame of ours that is state `k`.
     fn frame_like(&self, k: usize, session: &Session) -> Result<Option<u64>> {
         let end = frame_at(None, self.scene).max(self.first_frame + self.theirs.len() as u64);
-        let mut simulation = Simulation::new(self.scene)?;
+        let mut simulation = match &self.start {
+            Some(x) => Simulation::starting_at(self.scene, x)?,
+            None => Simulation::new(self.scene)?,
+        };
         simulation.allow_unstable();
         while largest(simulation.positions(), &self.theirs[k]) > CLEAR {
             session.signals.check()?;
@@ -176,7 +186,9 @@ impl Case<'_> {
         let progress = Tally::new(&session.ui, "trying mistakes", mistakes.len() as u64);
         let first = self.first_frame + k as u64;
         let tried = mistakes.par_iter().map(|mistake| {
-            let states = mistake.simulation().and_then(|s| Ours::simulate(s, first, window.len(), session));
+            let states = mistake
+                .simulation(self.start.as_ref())
+                .and_then(|simulation| Ours::simulate(simulation, first, window.len(), session));
             progress.add(1);
             match states {
                 // A mistake that leads nowhere is not the one that was made.
