@@ -219,13 +219,14 @@ fn until_rest_ends_at_rest_or_says_what_still_moves() {
     assert_eq!(limit(frames).object()["frames"], frames, "the limit may be the frame itself");
     let early = limit(frames - 1);
     assert_eq!(early.code, Some(1), "{}", early.stderr);
+    assert_eq!(early.object()["frames"], frames - 1, "what was found is there");
     let message = early.error()["error"].as_str().unwrap().to_owned();
     assert!(message.contains(&format!("not at rest after {} frames", frames - 1)), "{message}");
     assert!(message.contains("residual force"), "{message}");
 
     let early = scratch.run(&["render", "small.json", "out.png", "--until-rest", "--time", "0.1"]);
     assert_eq!(early.code, Some(1), "{}", early.stderr);
-    assert!(!scratch.path("out.png").exists(), "no picture of what was not asked for");
+    assert!(scratch.path("out.png").exists(), "the picture shows where it is by then");
     let picture = ["render", "small.json", "out.png", "--size", "16x16"];
     scratch.succeed(&[&picture, &damped[..]].concat());
     let at = ["--set", "cloth.damping=1", "--frame", &frames.to_string()];

@@ -2,9 +2,10 @@
 
 use std::num::Wrapping;
 
+use crate::cloth::Points;
 use crate::cloth::springs::SpringKind;
 use crate::error::Result;
-use crate::scene::{Cloth, Scene, SelfCollision};
+use crate::scene::{Cloth, Orientation, Scene, SelfCollision};
 use crate::simulation::Simulation;
 
 /// A mistake, and the simulation that does what the mistaken program does.
@@ -28,12 +29,15 @@ enum Change {
 }
 
 impl Mistake {
-    /// A simulation that makes the mistake.
+    /// A simulation that makes the mistake, from `start` on if that is given.
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub(super) fn simulation(&self) -> Result<Simulation> {
-        let mut simulation = Simulation::new(&self.scene)?;
+    pub(super) fn simulation(&self, start: Option<&Points>) -> Result<Simulation> {
+        let mut simulation = match start {
+            Some(x) => Simulation::starting_at(&self.scene, x)?,
+            None => Simulation::new(&self.scene)?,
+        };
         match self.change {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
             Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),
@@ -51,7 +55,7 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
     let fits = |cloth: &Cloth| {
         cloth.pinned.iter().all(|&[i, j]| i < cloth.num_width_points && j < cloth.num_height_points)
     };
-    let mut mistakes = Vec::from(scenes(scene));
+    let mut mistakes = scenes(scene);
     mistakes.retain(|mistake| mistake.scene != *scene && mistake.scene.cloth.as_ref().is_some_and(fits));
     if cloth.enable_bending && cloth.ks > 0.0 {
         mistakes.extend(bending(scene, cloth.ks));
@@ -66,27 +70,50 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
 }
 
 /// Mistakes that are another scene.
-fn scenes(scene: &Scene) -> [Mistake; 7] {
-    let with = |name, change: &dyn Fn(&mut Scene)| {
+fn scenes(scene: &Scene) -> Vec<Mistake> {
+    let with = |name, change: fn(&mut Scene)| {
         let mut scene = scene.clone();
         change(&mut scene);
         Mistake { name, scene, change: None }
     };
-    let with_cloth = |name, change: &dyn Fn(&mut Cloth)| {
-        with(name, &|scene| scene.cloth.as_mut().into_iter().for_each(change))
+    let with_cloth = |name, change: fn(&mut Cloth)| {
+        let mut scene = scene.clone();
+        scene.cloth.as_mut().into_iter().for_each(change);
+        Mistake { name, scene, change: None }
     };
-    [
-        with_cloth("points width / W apart instead of width / (W - 1)", &wide_pitch),
-        with_cloth("pins read as [row, column] instead of [column, row]", &|cloth| {
+    vec![
+        with_cloth("points width / W apart instead of width / (W - 1)", wide_pitch),
+        with_cloth("pins read as [row, column] instead of [column, row]", |cloth| {
             cloth.pinned.iter_mut().for_each(|pin| pin.reverse());
         }),
-        with_cloth("pin k read as a list of columns of row k", &|cloth| cloth.pinned = lists(&cloth.pinned)),
-        with_cloth("damping not divided by 100", &|cloth| cloth.damping *= 100.0),
-        with("no self-collision", &|scene| scene.sim.self_collision = SelfCollision::Off),
-        with("self-collision with points of other boxes too (boxes told apart by a hash)", &|scene| {
+        with_cloth("pin k read as a list of columns of row k", |cloth| cloth.pinned = lists(&cloth.pinned)),
+        with_cloth("the other orientation", |cloth| {
+            cloth.orientation = match cloth.orientation {
+                Orientation::Horizontal => Orientation::Vertical,
+                Orientation::Vertical => Orientation::Horizontal,
+            };
+        }),
+        with_cloth("no pins", |cloth| cloth.pinned.clear()),
+        with_cloth("damping not divided by 100", |cloth| cloth.damping *= 100.0),
+        with_cloth("no damping", |cloth| cloth.damping = 0.0),
+        with_cloth("mass of a point by (W - 1) (H - 1) instead of W H", |cloth| {
+            cloth.density *= few_points(cloth)
+        }),
+        with_cloth("no bending springs", |cloth| cloth.enable_bending = false),
+        with_cloth("no shearing springs", |cloth| cloth.enable_shearing = false),
+        with("gravity of 9.81 instead of 9.8 m/s²", |scene| scene.sim.gravity *= 9.81 / 9.8),
+        with("gravity upwards", |scene| scene.sim.gravity = -scene.sim.gravity),
+        with("a step as long as a frame", |scene| scene.sim.fps /= f64::from(scene.sim.steps_per_frame)),
+        with("no stretch limit", |scene| scene.sim.stretch_limit = None),
+        with("no self-collision", |scene| scene.sim.self_collision = SelfCollision::Off),
+        with_cloth("self-collision from thickness on, not from twice that", |cloth| cloth.thickness *= 0.5),
+        with("self-collision with points of other boxes too (boxes told apart by a hash)", |scene| {
             scene.sim.self_collision = SelfCollision::Neighbors;
         }),
-        with("no stretch limit", &|scene| scene.sim.stretch_limit = None),
+        with("friction f where 1 - f belongs", |scene| {
+            scene.planes.iter_mut().for_each(|plane| plane.friction = 1.0 - plane.friction);
+            scene.spheres.iter_mut().for_each(|sphere| sphere.friction = 1.0 - sphere.friction);
+        }),
     ]
 }
 
@@ -146,6 +173,12 @@ fn wide_pitch(cloth: &mut Cloth) {
     cloth.width = smaller(cloth.width, cloth.num_width_points);
     cloth.height = smaller(cloth.height, cloth.num_height_points);
     cloth.density *= area / (cloth.width * cloth.height);
+}
+
+/// W H / ((W - 1) (H - 1)).
+fn few_points(cloth: &Cloth) -> f64 {
+    let ratio = |points: usize| points as f64 / (points - 1) as f64;
+    ratio(cloth.num_width_points) * ratio(cloth.num_height_points)
 }
 
 /// The points of row k whose columns pin k names, each once.
