@@ -81,14 +81,6 @@ error[scene::wrong_type]: `cloth.enable_bending` is a number but must be true or
    |
 17 |     "enable_bending": 1
    |                       ^ wrong type
-
-error[scene::unknown_key]: unknown key `cloth.dampning`
-  --> scene.json:12:5
-   |
-12 |     "dampning": 0.2,
-   |     ^^^^^^^^^^ not a key of this object
-   |
-   = help: did you mean `damping`?
 "#;
     assert_rendered(&error(text, &[]), golden);
 }
