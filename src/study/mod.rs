@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::error::Result;
 use crate::texture_source::TextureSource;
 use hull::{Advice, advice, hull};
-use matrix::{Extent, METHODS, Panel, Source, panels};
+use matrix::{Extent, Panel, Source, panels, run_name};
 use pictures::Pictures;
 use reference::{COMPARED, DRAWN, Reference, converge};
 use runs::{Measured, Outcome};
@@ -88,7 +88,10 @@ pub fn run(
         .zip(measured)
         .map(|((panel, reference), cells)| PanelStudy { panel, reference, cells })
         .collect();
-    let pictures = pictures::measure(&source.scene(&[])?, textures, extent, store, watch)?;
+    let pictures = match extent.only.is_empty() {
+        true => pictures::measure(&source.scene(&[])?, textures, extent, store, watch)?,
+        false => None,
+    };
     let left_out = left_out.iter().map(|panel| panel.k_over_m).collect();
     Ok(Study { extent: extent.clone(), panels, left_out, pictures })
 }
@@ -168,9 +171,7 @@ impl PanelStudy {
 
     /// A cell in words, such as `Verlet, report start at 2700 steps/s`.
     pub fn name(&self, cell: usize) -> String {
-        let Some(cell) = self.cells.get(cell) else { return String::new() };
-        let method = METHODS.get(cell.method).map_or("", |method| method.name);
-        format!("{method} at {} steps/s", cell.rate)
+        self.cells.get(cell).map_or_else(String::new, |cell| run_name(cell.method, cell.rate))
     }
 }
 

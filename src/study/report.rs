@@ -41,6 +41,7 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
     }
     text += &match &study.pictures {
         Some(pictures) => picture_section(pictures)?,
+        None if !study.extent.only.is_empty() => String::new(),
         None => "<p>No pictures: lines are one pixel wide at every size, so a wireframe has no converged \
                  picture; and a cloth that is lost cannot be drawn.</p>\n"
             .to_owned(),
@@ -58,9 +59,14 @@ fn introduction(study: &Study) -> String {
          self-collision) with so many steps that halving them changes less than the grey floor; errors are \
          taken at {} s, and drawn from ten times the floor on. Times were measured one run after \
          the other on this machine, each the median of up to {} that were interleaved; springs visited are \
-         counted and the same on every machine.",
+         counted and the same on every machine.{}",
         times.join(", "),
         study.extent.repeats,
+        match study.extent.only.is_empty() {
+            true => String::new(),
+            false =>
+                format!(" Only runs were made that are called {}.", escape(&study.extent.only.join(" or "))),
+        },
     )
 }
 
@@ -82,11 +88,13 @@ fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
     let [coarse, fine] = panel.reference.rates;
     format!(
         "<h2>{}</h2>\n<div class=\"plots\">\n{}</div>\n\
-         <p>Pareto hull (no other point is both cheaper and more accurate), by time: {by_time}. \
-         By springs visited: {by_count}.</p>\n\
-         <p class=\"soft\">Hollow: finite, but the cloth gained energy out of nothing. Crosses on the top edge: \
-         lost (no number any more). Given up and not drawn: what \
-         visited more than {:.0e} springs. Grey: not told from the reference, which is Verlet with the half-step \
+         <p><strong>Pareto hull</strong>: no other point is both cheaper and more accurate.</p>\n\
+         <ul><li>By time: {by_time}.</li>\n<li>By springs visited: {by_count}.</li></ul>\n\
+         <p class=\"soft\">Hollow: the cloth holds more energy than the reference at some moment, by over 1 % of \
+         what the fall released: it gained it out of nothing, or its model took less out (damping per step, \
+         stretch limit). Crosses on the top edge: \
+         lost (no number any more). Not drawn: what was given up before this moment, after \
+         {:.0e} springs, or twice as many before the first moment. Grey: not told from the reference, which is Verlet with the half-step \
          start at {fine} steps/s; the floor is its distance from {coarse} steps/s.</p>\n\
          <details><summary>All {} runs</summary>\n{}</details>\n",
         heading(panel),

@@ -54,7 +54,7 @@ pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
     let rows = panel.cells.iter().enumerate().map(|(i, cell)| {
         let mut row = vec![
             escape(&panel.name(i)),
-            cell.outcome.text().to_owned(),
+            cell.fate(times.len()),
             format!("{:.4}", cell.wall()),
             format!("{:.2e}", cell.springs),
             cell.drift.map_or_else(|| "–".to_owned(), |drift| format!("{drift:+.2e}")),
