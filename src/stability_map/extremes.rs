@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::simulation::Simulation;
 
 /// Frames that each scene is run for.
-const FRAMES: u64 = 10;
+pub(super) const FRAMES: u64 = 10;
 
 /// What is promised of an extreme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -1,6 +1,6 @@
 //! The map as a web page: a panel a density, the thresholds, the extremes.
 
-use super::extremes::{Promise, Row};
+use super::extremes::{FRAMES, Promise, Row};
 use super::outcome::Outcome;
 use super::{Cell, Column, Map};
 use crate::math::{exp, ln};
@@ -131,7 +131,8 @@ fn thresholds(map: &Map) -> String {
         "<h2>Thresholds</h2>\n<p>The fewest steps a second at which the cloth is stable. Tried: by bisection, at \
          rest to 0.1 %, in motion over {} s, or 600 steps if those are longer, to 1 %. In motion there is no edge \
          to be found behind a stretch limit: the fewer the steps, the more the springs put in, and the figure is \
-         where that passes what the cloth is allowed. A dash: not found between half the first bound and \
+         where that passes what the cloth is allowed, at most the safe bound, above which the ledger does not \
+         judge. A dash: not found between half the first bound and \
          twice the safe one.</p>\n{}",
         map.axes.time,
         page::table(&head, Cells::Numbers, map.columns.iter().map(row)),
@@ -150,5 +151,8 @@ fn extremes(rows: &[Row]) -> String {
         vec![escape(row.what), sets.join(" "), promise.to_owned(), escape(&row.happened), kept.to_owned()]
     };
     let head = ["extreme", "set", "promise", "what happened", "kept"];
-    format!("<h2>Extremes</h2>\n{}", page::table(&head, Cells::Text, rows.iter().map(row)))
+    format!(
+        "<h2>Extremes</h2>\n<p>What runs ran for {FRAMES} frames.</p>\n{}",
+        page::table(&head, Cells::Text, rows.iter().map(row))
+    )
 }

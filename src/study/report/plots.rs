@@ -37,8 +37,10 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     guides(&mut plot, &x, &y);
     let points = panel.points(cost);
     // What holds too much energy is no choice, but it belongs to the line of its method.
-    let is_drawn =
-        |cell: &Measured| cell.outcome <= Outcome::EnergyAboveReference && panel.is_compared(cell, moment);
+    let is_drawn = |cell: &Measured| {
+        let error = cell.errors.get(moment).filter(|_| panel.is_compared(cell, moment));
+        cell.outcome <= Outcome::EnergyAboveBound && error.is_some_and(|error| error.rms < top)
+    };
     let along: Vec<_> = panel.hull(cost).into_iter().map(|i| points[i]).collect();
     plot.line(&along, HULL);
     for (method, &Method { name, .. }) in METHODS.iter().enumerate() {
