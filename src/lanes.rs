@@ -42,6 +42,8 @@ pub trait Lane:
     fn sqrt(self) -> Self;
     /// Largest whole number that is not above.
     fn floor(self) -> Self;
+    /// Lanes that are whole numbers as integers; too large ones saturate, NaN and absent lanes are 0.
+    fn to_whole(self) -> Wide<i32>;
     /// `then` where `self < other`, else `otherwise` (also where either is NaN).
     fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self;
     /// `other` in the lanes that `mask` names, else `self`.
@@ -75,7 +77,7 @@ impl<T: Copy> Wide<T> {
     /// `f` of every lane. A loop, because the standard library's `map` over arrays is not sure to be
     /// compiled into the caller's vector instructions.
     #[inline(always)]
-    fn each<U: Copy + Default>(self, f: impl Fn(T) -> U) -> Wide<U> {
+    pub(crate) fn each<U: Copy + Default>(self, f: impl Fn(T) -> U) -> Wide<U> {
         let mut result = Wide([U::default(); WIDTH]);
         for (result, value) in result.0.iter_mut().zip(self.0) {
             *result = f(value);
@@ -150,6 +152,12 @@ macro_rules! lanes {
                 <$scalar>::floor(self)
             }
             #[inline(always)]
+            fn to_whole(self) -> Wide<i32> {
+                let mut whole = Wide([0; WIDTH]);
+                whole.0[0] = self as i32;
+                whole
+            }
+            #[inline(always)]
             fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
                 if self < other { then } else { otherwise }
             }
@@ -202,6 +210,16 @@ macro_rules! lanes {
                 self.each(<$scalar>::floor)
             }
             #[inline(always)]
+            fn to_whole(self) -> Wide<i32> {
+                let near = |value: $scalar| value.abs() < NEAR.into();
+                if self.0.iter().fold(true, |all, &value| all & near(value)) {
+                    return self.each(|value| {
+                        (value as f32 + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits()).cast_signed()
+                    });
+                }
+                self.each(|value| value as i32)
+            }
+            #[inline(always)]
             fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
                 let mut result = otherwise;
                 for i in 0..WIDTH {
@@ -221,9 +239,18 @@ macro_rules! lanes {
     };
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "narrow is the one place that rounds to f32")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "narrow is the one place that rounds to f32, to_whole saturates"
+)]
 mod implementations {
     use super::{Lane, WIDTH, Wide};
+
+    /// A number to which a whole number between -`NEAR` and `NEAR` is added exactly: the sum's last bits
+    /// are its bits. A cast does more, and is not vectorised.
+    const WHOLE: f32 = 12_582_912.0;
+    const NEAR: f32 = 4_194_304.0;
+
     lanes!(f32);
     lanes!(f64);
 }

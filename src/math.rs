@@ -61,6 +61,7 @@ pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
 
 /// `base` to a whole exponent by repeated squaring, most significant bit last.
 /// `one` is what the zeroth power gives.
+#[inline(always)]
 pub fn powi<T: Copy + Mul<Output = T>>(base: T, exponent: u32, one: T) -> T {
     let (mut result, mut square, mut bits) = (None, base, exponent);
     while bits > 0 {

@@ -4,12 +4,19 @@
 //! computed: its array stays empty.
 
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 use crate::{
     cloth::Points,
     math::{cos, sin},
     scene::{Cloth, Needs, Plane, Sphere, Vec3},
 };
+
+/// Rows of a grid that one thread takes at a time.
+const BAND: usize = 32;
+
+/// Points that one thread takes at a time.
+const PIECE: usize = 4096;
 
 /// Attributes per vertex and the triangles over them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,23 +61,20 @@ impl Mesh {
     /// the triangles (A, C, B) and (B, C, D).
     pub fn cloth(cloth: &Cloth, points: &Points, needs: Needs) -> Self {
         let (w, h) = (cloth.num_width_points, cloth.num_height_points);
-        let mut mesh = Self {
-            positions: (0..points.len()).map(|i| round(points.get(i))).collect(),
-            triangles: grid_triangles(w, h, |a, b, c, d| [[a, c, b], [b, c, d]]),
-            ..Self::default()
+        let normals_of = |read: bool, f: &(dyn Fn(usize, Vec3) -> Vec3 + Sync)| {
+            if read { per_normal(points, w, h, f) } else { Vec::new() }
         };
-        if needs.normal || needs.tangent {
-            let normals = vertex_normals(points, &mesh.triangles);
-            if needs.tangent {
-                mesh.tangents =
-                    (0..points.len()).map(|i| round(row_tangent(points, w, i, &normals[i]))).collect();
-            }
-            mesh.normals = normals.into_iter().map(round).collect();
+        Self {
+            positions: (0..points.len())
+                .into_par_iter()
+                .with_min_len(PIECE)
+                .map(|i| round(points.get(i)))
+                .collect(),
+            normals: normals_of(needs.normal || needs.tangent, &|_, normal| normal),
+            tangents: normals_of(needs.tangent, &|i, normal| row_tangent(points, w, i, &normal)),
+            uvs: if needs.uv { grid_uvs(w, h) } else { Vec::new() },
+            triangles: grid_triangles(w, h, |a, b, c, d| [[a, c, b], [b, c, d]]),
         }
-        if needs.uv {
-            mesh.uvs = grid_uvs(w, h);
-        }
-        mesh
     }
 
     /// The unit ball of a sphere's resolution: (lat + 1)(lon + 1) vertices, latitude outer.
@@ -131,16 +135,17 @@ fn turn(u: f64) -> (f64, f64, f64) {
 fn grid_triangles(
     columns: usize,
     rows: usize,
-    split: impl Fn(u32, u32, u32, u32) -> [[u32; 3]; 2],
+    split: impl Fn(u32, u32, u32, u32) -> [[u32; 3]; 2] + Sync,
 ) -> Vec<[u32; 3]> {
-    let mut triangles = Vec::with_capacity(2 * (columns - 1) * (rows - 1));
-    for y in 0..rows - 1 {
-        for x in 0..columns - 1 {
-            let a = index(y * columns + x);
-            let c = index((y + 1) * columns + x);
-            triangles.extend(split(a, a + 1, c, c + 1));
+    let cells = columns - 1;
+    let mut triangles = vec![[0; 3]; 2 * cells * (rows - 1)];
+    triangles.par_chunks_mut(2 * cells * BAND).enumerate().for_each(|(band, triangles)| {
+        for (i, pair) in (band * BAND * cells..).zip(triangles.chunks_exact_mut(2)) {
+            let a = index(i / cells * columns + i % cells);
+            let c = a + index(columns);
+            pair.copy_from_slice(&split(a, a + 1, c, c + 1));
         }
-    }
+    });
     triangles
 }
 
@@ -152,17 +157,54 @@ fn grid_uvs(w: usize, h: usize) -> Vec<[f32; 2]> {
 
 /// Area-weighted vertex normals: the unit sum of the cross products of the triangles around each
 /// point, in triangle order. A point whose triangles have no area gets the normal +y.
-fn vertex_normals(points: &Points, triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    let mut sums = vec![Vector3::zeros(); points.len()];
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|i| i as usize);
-        let origin = points.get(a);
-        let cross = (points.get(b) - origin).cross(&(points.get(c) - origin));
-        for corner in [a, b, c] {
-            sums[corner] += cross;
+/// What `attribute` makes of each point's number and normal is rounded.
+fn per_normal(
+    points: &Points,
+    w: usize,
+    h: usize,
+    attribute: impl Fn(usize, Vec3) -> Vec3 + Sync,
+) -> Vec<[f32; 3]> {
+    let mut attributes = vec![[0.0; 3]; w * h];
+    attributes.par_chunks_mut(w * BAND).enumerate().for_each(|(band, attributes)| {
+        let first = band * BAND;
+        let (mut above, mut below) = (crosses(w), crosses(w));
+        if let Some(row) = first.checked_sub(1) {
+            set_crosses(&mut above, points, w, h, row);
         }
+        for (row, attributes) in (first..).zip(attributes.chunks_exact_mut(w)) {
+            set_crosses(&mut below, points, w, h, row);
+            for (x, attribute_of) in attributes.iter_mut().enumerate() {
+                let ([_, a1], [b0, b1]) = (above[x], above[x + 1]);
+                let ([c0, c1], [d0, _]) = (below[x], below[x + 1]);
+                let sum = Vec3::zeros() + a1 + b0 + b1 + c0 + c1 + d0;
+                *attribute_of = round(attribute(row * w + x, unit_or(sum, Vector3::y())));
+            }
+            std::mem::swap(&mut above, &mut below);
+        }
+    });
+    attributes
+}
+
+/// Cross products of both triangles of each cell in a row of cells, all zero. The first and the last stay
+/// so, before the row and after it: sums of the others are the same with them.
+fn crosses(w: usize) -> Vec<[Vec3; 2]> {
+    vec![[Vec3::zeros(); 2]; w + 1]
+}
+
+/// Computes the cross products of a row of cells; those of the row after the last are zero.
+fn set_crosses(crosses: &mut [[Vec3; 2]], points: &Points, w: usize, h: usize, row: usize) {
+    if row + 1 == h {
+        return crosses.fill([Vec3::zeros(); 2]);
     }
-    sums.into_iter().map(|sum| unit_or(sum, Vector3::y())).collect()
+    let of_row = |row: usize| [&points.x, &points.y, &points.z].map(|c| &c[row * w..(row + 1) * w]);
+    let (top, bottom) = (of_row(row), of_row(row + 1));
+    let point = |[px, py, pz]: [&[f64]; 3], x: usize| Vec3::new(px[x], py[x], pz[x]);
+    let cross = |a: Vec3, b: Vec3, c: Vec3| (b - a).cross(&(c - a));
+    for (x, both) in crosses[1..w].iter_mut().enumerate() {
+        let (a, b) = (point(top, x), point(top, x + 1));
+        let (c, d) = (point(bottom, x), point(bottom, x + 1));
+        *both = [cross(a, c, b), cross(b, c, d)];
+    }
 }
 
 /// ∂p/∂u along the row (central, one-sided at the ends), made orthogonal to the normal, unit.

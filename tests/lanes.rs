@@ -101,3 +101,21 @@ fn every_operation_is_that_of_plain_numbers() {
     let replaced = Wide([1.0_f32; WIDTH]).replace(&mask, Wide::from_fn(|i| 10.0 + i as f32));
     assert_eq!(replaced.0, [10.0, 1.0, 12.0, 1.0, 1.0, 15.0, 1.0, 1.0]);
 }
+
+/// Whole numbers become what a cast makes of them, also where some lanes are too large for the short way.
+#[test]
+fn whole_numbers_become_the_integers_of_a_cast() {
+    let near = [0.0, -0.0, 1.0, -1.0, 255.0, -16_384.0, 4_194_303.0, -4_194_303.0];
+    let far =
+        [4_194_304.0, -4_194_305.0, 16_777_216.0, 3e9, -3e9, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    for lanes in [near, far, std::array::from_fn(|i| if i == 5 { far[3] } else { near[i] })] {
+        #[expect(clippy::cast_possible_truncation, reason = "what is tested")]
+        let cast = lanes.map(|lane| lane as i32);
+        assert_eq!(Wide(lanes).to_whole().0, cast, "{lanes:?}");
+        assert_eq!(Wide(lanes.map(f64::from)).to_whole().0, cast, "{lanes:?}");
+        for (lane, cast) in lanes.into_iter().zip(cast) {
+            assert_eq!(lane.to_whole().0, [cast, 0, 0, 0, 0, 0, 0, 0]);
+            assert_eq!(f64::from(lane).to_whole().0[0], cast);
+        }
+    }
+}

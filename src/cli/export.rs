@@ -45,7 +45,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
     };
     let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let points = simulation.positions();
     let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
     // The simulation's own numbers, which the drawn mesh rounds.
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         let mesh = args.mesh.display().to_string();
         session.print_json(&Summary { mesh, frame, time, points, triangles })?;
     }
-    Ok(())
+    moved.result()
 }
 
 fn wrote(path: &Path, session: &Session) {

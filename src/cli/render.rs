@@ -65,7 +65,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
     let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let options = args.look.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
@@ -73,7 +73,8 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let picture = renderer.draw(simulation.positions(), &options);
     session.signals.check()?;
     args.write(&path, &picture)?;
-    args.finish(&path, &picture, &simulation, session)
+    args.finish(&path, &picture, &simulation, session)?;
+    moved.result()
 }
 
 impl Args {

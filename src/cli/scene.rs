@@ -75,7 +75,7 @@ pub(super) struct Moment {
     /// Frame number; 0 is the start
     #[arg(long, value_name = "N")]
     frame: Option<u64>,
-    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1 if it is not
+    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1, after the results, if it is not
     #[arg(long)]
     until_rest: bool,
     #[command(flatten)]

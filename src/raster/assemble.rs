@@ -17,7 +17,7 @@ const CHUNK_BITS: u32 = 14;
 pub(super) type Handle = u32;
 
 /// A chunk of a draw call's primitives, ready for the tiles.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Chunk {
     /// Index of the draw call.
     pub(super) call: usize,
@@ -57,34 +57,44 @@ pub(super) fn place(handle: Handle) -> (usize, usize) {
 }
 
 impl Chunk {
-    /// The triangles `first..` of a mesh.
-    pub(super) fn of_triangles(
+    /// Empties the chunk, and keeps its memory.
+    fn clear(&mut self, call: usize) {
+        self.call = call;
+        self.triangles.clear();
+        self.lines.clear();
+        self.made.clear();
+        self.made_varyings.clear();
+        self.counts = Counts::default();
+    }
+
+    /// Takes the triangles `first..` of a mesh, and nothing else.
+    pub(super) fn set_triangles(
+        &mut self,
         (call, first): (usize, usize),
         triangles: &[[u32; 3]],
         vertices: &VertexBuffer,
         viewport: &Viewport,
-    ) -> Self {
-        let mut chunk = Self { call, ..Self::default() };
+    ) {
+        self.clear(call);
         for (i, &corners) in triangles.iter().enumerate() {
-            chunk.add_triangle(corners, number(first + i), vertices, viewport);
+            self.add_triangle(corners, number(first + i), vertices, viewport);
         }
-        chunk.bins = Bins::of(chunk.triangles.iter().map(|triangle| triangle.bounds));
-        chunk
+        self.bins = Bins::of(self.triangles.iter().map(|triangle| triangle.bounds));
     }
 
-    /// The lines `first..` of a mesh.
-    pub(super) fn of_lines(
+    /// Takes the lines `first..` of a mesh, and nothing else.
+    pub(super) fn set_lines(
+        &mut self,
         (call, first): (usize, usize),
         lines: &[[u32; 2]],
         vertices: &VertexBuffer,
         viewport: &Viewport,
-    ) -> Self {
-        let mut chunk = Self { call, ..Self::default() };
+    ) {
+        self.clear(call);
         for (i, &ends) in lines.iter().enumerate() {
-            chunk.add_line(ends, number(first + i), vertices, viewport);
+            self.add_line(ends, number(first + i), vertices, viewport);
         }
-        chunk.bins = Bins::of(chunk.lines.iter().map(|line| line.bounds));
-        chunk
+        self.bins = Bins::of(self.lines.iter().map(|line| line.bounds));
     }
 
     fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {

@@ -3,7 +3,7 @@
 use super::{framebuffer::TILE, setup::Bounds};
 
 /// The primitives of a chunk by tile. Only the rectangle of tiles that the chunk touches is kept.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Bins {
     /// First column and row of tiles that are touched.
     first: [usize; 2],

@@ -1,6 +1,8 @@
 //! Where a picture is made: colour, depth and visible primitive per pixel, kept tile by tile so
 //! that each tile is one disjoint piece of memory for one thread.
 
+use super::{assemble::Chunk, vertex::VertexBuffer};
+
 /// Width and height of a tile in pixels.
 pub(super) const TILE: usize = 64;
 /// Pixels of a tile.
@@ -14,6 +16,9 @@ pub struct Framebuffer {
     pub(super) samples: usize,
     pub(super) columns: usize,
     pub(super) tiles: Vec<Tile>,
+    /// Of the picture before: nothing but memory, which the next one need not ask for again.
+    pub(super) buffers: Vec<VertexBuffer>,
+    pub(super) chunks: Vec<Chunk>,
 }
 
 /// One tile. Pixel (x, y) of the tile is element `y * TILE + x`; buffers with several samples hold
@@ -24,8 +29,8 @@ pub(super) struct Tile {
     pub(super) left: usize,
     /// Picture row of the tile's top row.
     pub(super) top: usize,
-    /// Stored colour: red, green, blue, and alpha, which is always 255.
-    pub(super) color: Vec<[u8; 4]>,
+    /// Stored colour: red in the lowest byte, green, blue, and alpha, which is always 255.
+    pub(super) color: Vec<u32>,
     /// Window depth per sample; 1 where nothing was drawn.
     pub(super) depth: Vec<f32>,
     /// The primitive seen per sample (see `assemble::Handle`); 0 where nothing was drawn.
@@ -33,7 +38,7 @@ pub(super) struct Tile {
     /// Object and triangle per pixel (of sample 0), if asked for.
     pub(super) ids: Vec<u32>,
     /// The colour that the tile was cleared to, if nothing was drawn since.
-    pub(super) cleared: Option<[u8; 4]>,
+    pub(super) cleared: Option<u32>,
 }
 
 impl Tile {
@@ -43,7 +48,7 @@ impl Tile {
     }
 
     /// Clears colour, depth and visibility.
-    pub(super) fn clear(&mut self, color: [u8; 4]) {
+    pub(super) fn clear(&mut self, color: u32) {
         self.color.fill(color);
         self.depth.fill(1.0);
         self.visible.fill(0);
@@ -60,19 +65,20 @@ impl Framebuffer {
             .map(|i| Tile {
                 left: i % columns * TILE,
                 top: i / columns * TILE,
-                color: vec![[0; 4]; TILE_PIXELS],
+                color: vec![0; TILE_PIXELS],
                 depth: vec![1.0; TILE_PIXELS * samples],
                 visible: vec![0; TILE_PIXELS * samples],
                 ids: Vec::new(),
                 cleared: None,
             })
             .collect();
-        Self { width, height, samples, columns, tiles }
+        Self { width, height, samples, columns, tiles, buffers: Vec::new(), chunks: Vec::new() }
     }
 
     /// Stored colours, three bytes a pixel, top row first.
     pub fn rgb(&self) -> Vec<u8> {
-        self.rows(|tile| &tile.color).flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()
+        let bytes = self.rows(|tile| &tile.color).map(|color| color.to_le_bytes());
+        bytes.flat_map(|[r, g, b, _]| [r, g, b]).collect()
     }
 
     /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.

@@ -47,7 +47,7 @@ pub enum Primitives<'a> {
     Lines(&'a [[u32; 2]]),
 }
 
-type VertexStage<'a> = Box<dyn Fn(&Viewport) -> VertexBuffer + Send + Sync + 'a>;
+type VertexStage<'a> = Box<dyn Fn(&Viewport, &mut VertexBuffer) + Send + Sync + 'a>;
 type FragmentStage<'a> = Box<dyn Fn(&ShadeInput<'_>, &mut FragmentList) + Send + Sync + 'a>;
 
 /// A mesh with its two programs.
@@ -69,8 +69,8 @@ impl<'a> DrawCall<'a> {
     ) -> Self {
         Self {
             primitives,
-            vertex_stage: Box::new(move |viewport| {
-                vertex::run(count, viewport, &attributes, &vertex_program)
+            vertex_stage: Box::new(move |viewport, buffer| {
+                buffer.fill(count, viewport, &attributes, &vertex_program);
             }),
             fragment_stage: Box::new(move |input, list| {
                 dispatch(Shade { input, list, program: &fragment_program, varyings: PhantomData::<[L; N]> });
@@ -131,15 +131,18 @@ pub fn draw(
     ids: bool,
 ) -> (Stats, Stages) {
     let started = Instant::now();
-    let viewport = viewport(framebuffer);
-    let buffers: Vec<VertexBuffer> = calls.iter().map(|call| (call.vertex_stage)(&viewport)).collect();
+    let viewport = Viewport::new(framebuffer.width, framebuffer.height, framebuffer.samples);
+    let Framebuffer { tiles, buffers, chunks, .. } = framebuffer;
+    buffers.resize_with(calls.len(), VertexBuffer::default);
+    for (call, buffer) in calls.iter().zip(&mut *buffers) {
+        (call.vertex_stage)(&viewport, buffer);
+    }
     let shaded = Instant::now();
-    let chunks = assemble(calls, &buffers, &viewport);
+    assemble(calls, buffers, &viewport, chunks);
     let binned = Instant::now();
 
-    let scene = TileScene { calls, buffers: &buffers, chunks: &chunks, viewport, background, ids };
-    let tiles: Vec<TileCost> = framebuffer
-        .tiles
+    let scene = TileScene { calls, buffers, chunks, viewport, background, ids };
+    let tiles: Vec<TileCost> = tiles
         .par_iter_mut()
         .map_init(FragmentList::default, |list, tile| resolve::draw_tile(tile, &scene, list))
         .collect();
@@ -154,7 +157,7 @@ pub fn draw(
         raster: raster.mul_f64(share),
         shading: shading.mul_f64(share),
     };
-    (count(calls, &buffers, &chunks, &tiles), stages)
+    (count(calls, buffers, chunks, &tiles), stages)
 }
 
 /// What a tile needs to know to be drawn.
@@ -176,29 +179,25 @@ struct TileCost {
     shading: Duration,
 }
 
-fn viewport(framebuffer: &Framebuffer) -> Viewport {
-    Viewport { width: framebuffer.width, height: framebuffer.height, samples: framebuffer.samples }
-}
-
 /// Clips, sets up and bins the primitives of all calls, chunk by chunk.
-fn assemble(calls: &[DrawCall<'_>], buffers: &[VertexBuffer], viewport: &Viewport) -> Vec<Chunk> {
+fn assemble(calls: &[DrawCall<'_>], buffers: &[VertexBuffer], viewport: &Viewport, chunks: &mut Vec<Chunk>) {
     let pieces: Vec<(usize, usize)> = calls
         .iter()
         .enumerate()
         .flat_map(|(call, c)| (0..c.primitives.len()).step_by(CHUNK).map(move |first| (call, first)))
         .collect();
-    let chunk = |&(call, first): &(usize, usize)| {
+    chunks.resize_with(pieces.len(), Chunk::default);
+    chunks.par_iter_mut().zip(pieces).for_each(|(chunk, (call, first))| {
         let last = calls[call].primitives.len().min(first + CHUNK);
         match calls[call].primitives {
             Primitives::Triangles(all) => {
-                Chunk::of_triangles((call, first), &all[first..last], &buffers[call], viewport)
+                chunk.set_triangles((call, first), &all[first..last], &buffers[call], viewport);
             }
             Primitives::Lines(all) => {
-                Chunk::of_lines((call, first), &all[first..last], &buffers[call], viewport)
+                chunk.set_lines((call, first), &all[first..last], &buffers[call], viewport);
             }
         }
-    };
-    pieces.par_iter().map(chunk).collect()
+    });
 }
 
 impl Primitives<'_> {

@@ -12,7 +12,7 @@ use super::{
     assemble::{Handle, handle, place},
     framebuffer::{TILE_PIXELS, Tile},
     line::draw_line,
-    shade::{FragmentList, ShadeInput},
+    shade::{FragmentList, ShadeInput, in_blocks},
     tile::{TileBounds, draw_triangle},
 };
 use crate::{
@@ -52,22 +52,64 @@ fn shade_tile(
     list: &mut FragmentList,
 ) -> (u64, u64) {
     let samples = scene.viewport.samples;
-    let mut sums = vec![[0.0; 3]; if samples > 1 && !chunks.is_empty() { TILE_PIXELS } else { 0 }];
-    add_background(tile, scene, &mut sums);
+    let mut pixels = Pixels::of(tile, scene, !chunks.is_empty());
     let mut fragments = 0;
     for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
         let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
-        collect_fragments(tile, first..last + 1, samples, list);
+        collect_fragments(tile, first..last + 1, &pixels.seen, samples, list);
         shade_fragments(tile, scene.chunks[first].call, scene, list);
-        dispatch(WriteColors { tile, list, samples, sums: &mut sums });
+        dispatch(WriteColors { tile, list, samples, sums: &mut pixels.sums });
         fragments += list.len as u64;
     }
-    for (color, sum) in tile.color.iter_mut().zip(&sums) {
-        #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
-        let mean = sum.map(|channel| channel as f32);
-        *color = store(mean);
+    (fragments, if samples == 1 { fragments } else { pixels.resolve(tile) })
+}
+
+/// The pixels of a tile with several samples; empty if there is one, or nothing is drawn.
+struct Pixels {
+    /// Handles of all samples together: 0 where only the background is seen.
+    seen: Vec<u32>,
+    /// Colours times the share of the samples that see them. In f64 the shares, of sixteenths, and their
+    /// sums are exact, so that the mean of equal colours is that colour.
+    sums: Vec<[f64; 3]>,
+}
+
+impl Pixels {
+    /// The pixels with the background's share.
+    fn of(tile: &Tile, scene: &TileScene<'_>, drawn: bool) -> Self {
+        let samples = scene.viewport.samples;
+        if samples == 1 || !drawn {
+            return Self { seen: Vec::new(), sums: Vec::new() };
+        }
+        let background = scene.background.map(clamp);
+        let (first, others) = tile.visible.split_at(TILE_PIXELS);
+        let (mut seen, mut free) =
+            (first.to_vec(), first.iter().map(|&h| u8::from(h == 0)).collect::<Vec<_>>());
+        for sample in others.chunks_exact(TILE_PIXELS) {
+            for ((seen, free), &handle) in seen.iter_mut().zip(&mut free).zip(sample) {
+                *seen |= handle;
+                *free += u8::from(handle == 0);
+            }
+        }
+        let mut sums = vec![[0.0; 3]; TILE_PIXELS];
+        for (sum, free) in sums.iter_mut().zip(free).filter(|&(_, free)| free > 0) {
+            add(sum, background, f64::from(free) / samples as f64);
+        }
+        Self { seen, sums }
     }
-    (fragments, if samples == 1 { fragments } else { covered(tile, samples) })
+
+    /// Stores the means of the pixels that see something; how many they are.
+    fn resolve(self, tile: &mut Tile) -> u64 {
+        let mut covered = 0;
+        for ((color, seen), sum) in tile.color.iter_mut().zip(self.seen).zip(self.sums) {
+            if seen != 0 {
+                #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
+                let mean = sum.map(|channel| channel as f32);
+                *color = store(mean);
+                covered += 1;
+            }
+        }
+        covered
+    }
 }
 
 /// Depth and visibility of every primitive that touches the tile, in submission order.
@@ -102,31 +144,32 @@ impl Work for Visibility<'_> {
     }
 }
 
-/// Pixels of which at least one sample sees something.
-fn covered(tile: &Tile, samples: usize) -> u64 {
-    let (first, others) = tile.visible.split_at(TILE_PIXELS);
-    let mut seen: Vec<u32> = first.to_vec();
-    for sample in others.chunks_exact(TILE_PIXELS).take(samples) {
-        for (seen, &handle) in seen.iter_mut().zip(sample) {
-            *seen |= handle;
-        }
-    }
-    seen.iter().map(|&seen| u64::from(seen != 0)).sum()
-}
-
 /// What each sample of a pixel sees.
 fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
     (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
 }
 
 /// Lists the pixels in which a primitive of these chunks is seen, each primitive once a pixel.
-fn collect_fragments(tile: &Tile, chunks: Range<usize>, samples: usize, list: &mut FragmentList) {
+fn collect_fragments(
+    tile: &Tile,
+    chunks: Range<usize>,
+    seen: &[u32],
+    samples: usize,
+    list: &mut FragmentList,
+) {
     list.clear();
     let handles = handle(chunks.start, 0)..handle(chunks.end, 0);
     if samples == 1 {
         list.list_visible(&tile.visible, &handles);
     } else {
-        for pixel in 0..TILE_PIXELS {
+        for pixel in in_blocks().filter(|&pixel| seen[pixel] != 0) {
+            let primitive = tile.visible[pixel];
+            if samples_of(tile, samples, pixel).all(|other| other == primitive) {
+                if handles.contains(&primitive) {
+                    list.add(pixel, primitive, samples);
+                }
+                continue;
+            }
             list.add_pixel(pixel, samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen)));
         }
     }
@@ -164,7 +207,7 @@ impl Work for WriteColors<'_> {
         let colors = red.chunks_exact(WIDTH).zip(green.chunks_exact(WIDTH)).zip(blue.chunks_exact(WIDTH));
         for (pixels, ((red, green), blue)) in list.pixels.chunks_exact(WIDTH).zip(colors) {
             // The list is filled up with a fragment that is stored once more, with the same colour.
-            let mut colors = [[0; 4]; WIDTH];
+            let mut colors = [0; WIDTH];
             for (i, color) in colors.iter_mut().enumerate() {
                 *color = store([red[i], green[i], blue[i]]);
             }
@@ -175,18 +218,7 @@ impl Work for WriteColors<'_> {
     }
 }
 
-/// Adds the background's share to the pixels' sums.
-fn add_background(tile: &Tile, scene: &TileScene<'_>, sums: &mut [[f64; 3]]) {
-    let background = scene.background.map(clamp);
-    for (pixel, sum) in sums.iter_mut().enumerate() {
-        let free = samples_of(tile, scene.viewport.samples, pixel).filter(|&handle| handle == 0).count();
-        #[expect(clippy::cast_precision_loss, reason = "at most 16 samples")]
-        add(sum, background, free as f64 / scene.viewport.samples as f64);
-    }
-}
-
-/// Adds a share of a colour. In f64 the shares, of sixteenths, and their sums are exact, so that the
-/// mean of equal colours is that colour.
+/// Adds a share of a colour.
 fn add(sum: &mut [f64; 3], color: [f32; 3], share: f64) {
     for (sum, color) in sum.iter_mut().zip(color) {
         *sum += f64::from(color) * share;
@@ -216,10 +248,10 @@ fn clamp(c: f32) -> f32 {
     if c > 0.0 { c.min(1.0) } else { 0.0 }
 }
 
-/// 8 bits of each channel in 0..=1, and alpha 1.
+/// 8 bits of each channel in 0..=1, and alpha 1, as a tile keeps them.
 #[inline(always)]
-fn store([r, g, b]: [f32; 3]) -> [u8; 4] {
-    (quantize(r) | quantize(g) << 8 | quantize(b) << 16 | 255 << 24).to_le_bytes()
+fn store([r, g, b]: [f32; 3]) -> u32 {
+    quantize(r) | quantize(g) << 8 | quantize(b) << 16 | 255 << 24
 }
 
 /// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.

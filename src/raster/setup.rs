@@ -14,6 +14,8 @@ pub(super) struct Viewport {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) samples: usize,
+    /// Lowest and highest place of a sample in its pixel along x and y, in 1/256 pixel.
+    spread: [[i32; 2]; 2],
 }
 
 /// A vertex in the window: x right, y up (both in pixels, unsnapped), depth, and 1/w.
@@ -74,6 +76,16 @@ pub(super) enum Dropped {
 }
 
 impl Viewport {
+    /// A part of `width` × `height` pixels with `samples` samples each.
+    pub(super) fn new(width: usize, height: usize, samples: usize) -> Self {
+        let spread = [0, 1].map(|axis| {
+            let offsets =
+                samples::positions(samples).iter().map(|position| position[axis] * (SUBPIXELS / 16));
+            offsets.fold([SUBPIXELS, 0], |[low, high], s| [low.min(s), high.max(s)])
+        });
+        Self { width, height, samples, spread }
+    }
+
     /// A vertex from its clip-space position.
     #[inline(always)]
     pub(super) fn corner(&self, position: [f32; 4]) -> Corner {
@@ -148,15 +160,13 @@ impl Viewport {
 
     /// The pixels of which at least one sample may lie inside the corners' box.
     fn bounds(&self, snapped: &[[i32; 2]; 3]) -> Result<Bounds, Dropped> {
-        let positions = samples::positions(self.samples);
         let range = |axis: usize| {
             let (mut first, mut last) = (i32::MAX, i32::MIN);
             for corner in snapped {
                 (first, last) = (first.min(corner[axis]), last.max(corner[axis]));
             }
             // A sample at offset s of pixel p lies in first..=last iff first - s <= 256 p <= last - s.
-            let offsets = positions.iter().map(|position| position[axis] * (SUBPIXELS / 16));
-            let (low, high) = offsets.fold((SUBPIXELS, 0), |(low, high), s| (low.min(s), high.max(s)));
+            let [low, high] = self.spread[axis];
             [(first - high + SUBPIXELS - 1).div_euclid(SUBPIXELS), (last - low).div_euclid(SUBPIXELS)]
         };
         self.inside(range(0), range(1))

@@ -5,11 +5,11 @@
 //! positive, so nothing cancels: the roundings add up to at most 11·2⁻²⁴·max |aᵢ|, and stay below
 //! 6·2⁻²⁴·max |aᵢ| in tests against f64 (4.6 is the largest seen).
 
-use std::{marker::PhantomData, ops::Range};
+use std::{hint::black_box, marker::PhantomData, ops::Range};
 
 use super::{
     assemble::{Chunk, Handle, place},
-    framebuffer::TILE,
+    framebuffer::{TILE, TILE_PIXELS},
     setup::Triangle,
     vertex::VertexBuffer,
 };
@@ -26,6 +26,13 @@ const TILE_SIDE: u16 = TILE as u16;
 /// Pixels of a block of four by two. Small triangles fill blocks better than rows, and the fewer
 /// triangles meet in a group of fragments, the less there is to interpolate.
 const BLOCK: [usize; WIDTH] = [0, 1, 2, 3, TILE, TILE + 1, TILE + 2, TILE + 3];
+
+/// The pixels of a tile, block by block.
+pub(super) fn in_blocks() -> impl Iterator<Item = usize> {
+    let rows = (0..TILE_PIXELS).step_by(2 * TILE);
+    let firsts = rows.flat_map(|row| (row..row + TILE).step_by(4));
+    firsts.flat_map(|first| BLOCK.map(|offset| first + offset))
+}
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
@@ -66,6 +73,9 @@ impl FragmentList {
         let mut len = 0;
         for row in (0..visible.len()).step_by(2 * TILE) {
             for first in (row..row + TILE).step_by(4) {
+                if BLOCK.iter().fold(0, |seen, offset| seen | visible[first + offset]) == 0 {
+                    continue;
+                }
                 for offset in BLOCK {
                     let (pixel, primitive) = (first + offset, visible[first + offset]);
                     // Written always and kept only if it is one: no branch to mispredict.
@@ -86,11 +96,17 @@ impl FragmentList {
             if let Some(known) = self.primitives[first..].iter().position(|&other| other == primitive) {
                 self.weights[first + known] += 1;
             } else {
-                self.pixels.push(place_in_tile(pixel));
-                self.weights.push(1);
-                self.primitives.push(primitive);
+                self.add(pixel, primitive, 1);
             }
         }
+    }
+
+    /// Adds a primitive that `samples` (at most 16) samples of a pixel see.
+    #[expect(clippy::cast_possible_truncation, reason = "at most 16")]
+    pub(super) fn add(&mut self, pixel: usize, primitive: Handle, samples: usize) {
+        self.pixels.push(place_in_tile(pixel));
+        self.weights.push(samples as u8);
+        self.primitives.push(primitive);
     }
 
     /// Fills the lists up and makes room for the colours.
@@ -126,11 +142,15 @@ impl<L: Lane, const N: usize, P: FragmentProgram<L, N>> Work for Shade<'_, L, N,
     fn run(self) {
         let Self { input, list, program, .. } = self;
         let FragmentList { pixels, primitives, colors: [red, green, blue], .. } = list;
+        let mut planes = [Plane::default(); PLANES];
         let groups = pixels.chunks_exact(L::LANES).zip(primitives.chunks_exact(L::LANES));
         let colors = red.chunks_exact_mut(L::LANES).zip(green.chunks_exact_mut(L::LANES));
         let colors = colors.zip(blue.chunks_exact_mut(L::LANES));
         for ((pixels, primitives), ((red, green), blue)) in groups.zip(colors) {
-            let Vec3 { x, y, z } = program(&varyings::<L, N>(input, pixels, primitives));
+            // Kept in memory in between: whole vectors come out of it, and the compiler optimises the two
+            // halves by themselves, which it does better than both at once.
+            let varyings = black_box(varyings::<L, N>(input, pixels, primitives, &mut planes));
+            let Vec3 { x, y, z } = program(&varyings);
             clamp(x).store(red);
             clamp(y).store(green);
             clamp(z).store(blue);
@@ -144,6 +164,7 @@ fn varyings<L: Lane, const N: usize>(
     input: &ShadeInput<'_>,
     pixels: &[u16],
     primitives: &[Handle],
+    planes: &mut [Plane<N>; PLANES],
 ) -> [L; N] {
     let mut result = [L::splat(0.0); N];
     if N == 0 {
@@ -153,12 +174,17 @@ fn varyings<L: Lane, const N: usize>(
     let (x0, y0) = (<L::Double as Lane>::splat(x0), <L::Double as Lane>::splat(y0));
     let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
     let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
-    let mut previous = 0;
+    let (first, mut previous) = (primitives[0], 0);
     for (i, &primitive) in primitives.iter().enumerate() {
-        if primitive == previous || primitives[..i].contains(&primitive) {
+        // Three triangles or more may be interpolated again, which changes nothing.
+        if primitive == previous || (i > 0 && primitive == first) {
             continue;
         }
-        let at = interpolate::<L, N>(input, primitive, x, y);
+        let plane = &mut planes[primitive as usize % PLANES];
+        if plane.primitive != primitive {
+            *plane = Plane::of(input, primitive);
+        }
+        let at = plane.interpolate::<L>(x, y);
         if i == 0 {
             result = at;
         } else {
@@ -175,36 +201,68 @@ fn varyings<L: Lane, const N: usize>(
     result
 }
 
-/// The varyings of one triangle at window positions (x, y).
-#[inline(always)]
-fn interpolate<L: Lane, const N: usize>(
-    input: &ShadeInput<'_>,
+/// Triangles that are kept ready for interpolation: about as many as meet in two rows of a tile.
+const PLANES: usize = 32;
+
+/// What interpolation needs to know of a triangle.
+#[derive(Clone, Copy)]
+struct Plane<const N: usize> {
+    /// Which triangle; 0 is none.
     primitive: Handle,
-    x: L::Double,
-    y: L::Double,
-) -> [L; N] {
-    let (chunk, index) = place(primitive);
-    let chunk = &input.chunks[chunk];
-    let Triangle { vertices: [i0, i1, i2], scale, .. } = chunk.triangles[index];
-    let corner = |vertex: u32| chunk.corner(vertex, input.vertices).window;
-    let (a, b, c) = (corner(i0), corner(i1), corner(i2));
-    let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-    let (x, y) = (x - <L::Double as Lane>::splat(a.x), y - <L::Double as Lane>::splat(a.y));
-    let plane = |gx: f64, gy: f64| L::splat_double(gx * scale) * x + L::splat_double(gy * scale) * y;
-    let l1 = plane(d(c.y, a.y), -d(c.x, a.x));
-    let l2 = plane(-d(b.y, a.y), d(b.x, a.x));
-    let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
-    let w0 = L::narrow(l0) * L::splat(a.r);
-    let w1 = L::narrow(l1) * L::splat(b.r);
-    let w2 = L::narrow(l2) * L::splat(c.r);
-    let w = L::splat(1.0) / (w0 + w1 + w2);
-    let varyings = |vertex: u32| chunk.varyings_of::<N>(vertex, input.vertices);
-    let (a, b, c) = (varyings(i0), varyings(i1), varyings(i2));
-    let mut result = [L::splat(0.0); N];
-    for (k, result) in result.iter_mut().enumerate() {
-        *result = (w0 * L::splat(a[k]) + w1 * L::splat(b[k]) + w2 * L::splat(c[k])) * w;
+    /// 1/w of each corner.
+    r: [f32; 3],
+    /// Window position of the first corner.
+    origin: [f64; 2],
+    /// What the barycentric coordinates of the second and third corner grow by per pixel right and up.
+    steps: [[f64; 2]; 2],
+    /// Of each corner.
+    varyings: [[f32; N]; 3],
+}
+
+impl<const N: usize> Default for Plane<N> {
+    fn default() -> Self {
+        Self { primitive: 0, r: [0.0; 3], origin: [0.0; 2], steps: [[0.0; 2]; 2], varyings: [[0.0; N]; 3] }
     }
-    result
+}
+
+impl<const N: usize> Plane<N> {
+    #[inline(always)]
+    fn of(input: &ShadeInput<'_>, primitive: Handle) -> Self {
+        let (chunk, index) = place(primitive);
+        let chunk = &input.chunks[chunk];
+        let Triangle { vertices: [i0, i1, i2], scale, .. } = chunk.triangles[index];
+        let corner = |vertex: u32| chunk.corner(vertex, input.vertices).window;
+        let (a, b, c) = (corner(i0), corner(i1), corner(i2));
+        let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
+        let step = |gx: f64, gy: f64| [gx * scale, gy * scale];
+        let varyings = |vertex: u32| *chunk.varyings_of::<N>(vertex, input.vertices);
+        Self {
+            primitive,
+            r: [a.r, b.r, c.r],
+            origin: [a.x.into(), a.y.into()],
+            steps: [step(d(c.y, a.y), -d(c.x, a.x)), step(-d(b.y, a.y), d(b.x, a.x))],
+            varyings: [varyings(i0), varyings(i1), varyings(i2)],
+        }
+    }
+
+    /// The varyings at window positions (x, y).
+    #[inline(always)]
+    fn interpolate<L: Lane>(&self, x: L::Double, y: L::Double) -> [L; N] {
+        let (x, y) = (x - L::splat_double(self.origin[0]), y - L::splat_double(self.origin[1]));
+        let at = |[gx, gy]: [f64; 2]| L::splat_double(gx) * x + L::splat_double(gy) * y;
+        let (l1, l2) = (at(self.steps[0]), at(self.steps[1]));
+        let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
+        let w0 = L::narrow(l0) * L::splat(self.r[0]);
+        let w1 = L::narrow(l1) * L::splat(self.r[1]);
+        let w2 = L::narrow(l2) * L::splat(self.r[2]);
+        let w = L::splat(1.0) / (w0 + w1 + w2);
+        let [a, b, c] = &self.varyings;
+        let mut result = [L::splat(0.0); N];
+        for (k, result) in result.iter_mut().enumerate() {
+            *result = (w0 * L::splat(a[k]) + w1 * L::splat(b[k]) + w2 * L::splat(c[k])) * w;
+        }
+        result
+    }
 }
 
 /// Clamps to 0..=1; NaN gives 0.

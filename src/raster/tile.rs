@@ -107,20 +107,25 @@ fn draw_sample(
     let dy = f64::from(offset[1]) / f64::from(SUBPIXELS);
     let steps = [edges[0].steps(), edges[1].steps(), edges[2].steps()];
     let most = [steps[0][7].max(0), steps[1][7].max(0), steps[2][7].max(0)];
-    for y in bounds.y[0]..=bounds.y[1] {
-        let window_y = height as f64 - (whole(tile.top + y) + dy);
-        let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
-        let row = base + y * TILE;
-        let mut start = bounds.x[0];
-        while start <= bounds.x[1] {
-            let x = start.min(TILE - WIDTH);
-            start += WIDTH;
-            let at = [edges[0].value(x, y), edges[1].value(x, y), edges[2].value(x, y)];
-            if (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0 {
+    let mut start = bounds.x[0];
+    while start <= bounds.x[1] {
+        let x = start.min(TILE - WIDTH);
+        start += WIDTH;
+        let columns = Lanes::splat_double(whole(tile.left + x) + dx - plane.origin[0]) + COLUMNS;
+        let along_row = Lanes::splat_double(plane.column) * columns;
+        let mut below = edges.map(|edge| edge.value(x, bounds.y[0]));
+        for y in bounds.y[0]..bounds.y[1] + 1 {
+            let at = below;
+            below = [at[0] + edges[0].row, at[1] + edges[1].row, at[2] + edges[2].row];
+            if bounds.x[1] - bounds.x[0] > 15 && (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0
+            {
                 continue;
             }
+            let window_y = height as f64 - (whole(tile.top + y) + dy);
+            let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
+            let place = base + y * TILE + x;
             let (Some(depths), Some(visible)) =
-                (tile.depth[row + x..].first_chunk_mut(), tile.visible[row + x..].first_chunk_mut())
+                (tile.depth[place..].first_chunk_mut(), tile.visible[place..].first_chunk_mut())
             else {
                 continue;
             };
@@ -129,8 +134,7 @@ fn draw_sample(
                 // Negative where the pixel is outside of any edge.
                 *sign = (at[0] + steps[0][i]) | (at[1] + steps[1][i]) | (at[2] + steps[2][i]);
             }
-            let window_x = whole(tile.left + x) + dx - plane.origin[0];
-            depth_test(&signs, row_depth, plane.column, window_x, handle, depths, visible);
+            depth_test(&signs, Lanes::splat_double(row_depth) + along_row, handle, depths, visible);
         }
     }
 }
@@ -149,21 +153,20 @@ fn whole(pixel: usize) -> f64 {
 /// The columns of eight pixels, from the first one's.
 const COLUMNS: Wide<f64> = Wide([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
 
+/// Depths of eight pixels.
+type Lanes = Wide<f32>;
+
 /// Depth test LESS of eight pixels; those that pass keep the new depth and primitive. No branch a
 /// pixel, so that it is vectorised.
 #[inline(always)]
 fn depth_test(
     signs: &[i32; WIDTH],
-    row_depth: f64,
-    column_depth: f64,
-    window_x: f64,
+    z: Wide<f64>,
     handle: Handle,
     depths: &mut [f32; WIDTH],
     visible: &mut [Handle; WIDTH],
 ) {
-    type Lanes = Wide<f32>;
-    let columns = Lanes::splat_double(window_x) + COLUMNS;
-    let z = Lanes::narrow(Lanes::splat_double(row_depth) + Lanes::splat_double(column_depth) * columns);
+    let z = Lanes::narrow(z);
     // A sample may lie outside of the unsnapped corners, and the plane there below 0.
     let z = z.select_less(Lanes::splat(0.0), Lanes::splat(0.0), z);
     for i in 0..WIDTH {

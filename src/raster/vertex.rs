@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// What the vertex stage puts out.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct VertexBuffer {
     /// `gl_Position` per vertex: clip space.
     pub(super) positions: Vec<[f32; 4]>,
@@ -23,7 +23,7 @@ pub(super) struct VertexBuffer {
     pub(super) outside: Vec<u8>,
     /// Varyings, `stride` numbers a vertex.
     pub(super) varyings: Vec<f32>,
-    /// Varyings per vertex.
+    /// Varyings per vertex, or 1 if there are none.
     pub(super) stride: usize,
 }
 
@@ -49,24 +49,32 @@ impl Work for Place<'_> {
     }
 }
 
-/// Runs `program` over `count` vertices and finds their places in the window.
-pub(super) fn run<const N: usize>(
-    count: usize,
-    viewport: &Viewport,
-    attributes: impl Fn(usize) -> Attributes + Sync,
-    program: &impl VertexProgram<N>,
-) -> VertexBuffer {
-    let mut positions = vec![[0.0; 4]; count];
-    let mut corners = vec![Corner::default(); count];
-    let mut outside = vec![0; count];
-    let mut varyings = vec![[0.0; N]; count];
-    let shaded = positions.par_chunks_mut(GROUP).zip(varyings.par_chunks_mut(GROUP));
-    let placed = corners.par_chunks_mut(GROUP).zip(outside.par_chunks_mut(GROUP));
-    shaded.zip(placed).enumerate().for_each(|(group, ((positions, varyings), (corners, outside)))| {
-        for (i, (position, varying)) in positions.iter_mut().zip(varyings).enumerate() {
-            (*position, *varying) = program(&attributes(group * GROUP + i));
-        }
-        dispatch(Place { viewport, positions, corners, outside });
-    });
-    VertexBuffer { positions, corners, outside, varyings: varyings.into_flattened(), stride: N }
+impl VertexBuffer {
+    /// Runs `program` over `count` vertices and finds their places in the window. What the buffer held
+    /// does not matter; its memory is used.
+    pub(super) fn fill<const N: usize>(
+        &mut self,
+        count: usize,
+        viewport: &Viewport,
+        attributes: impl Fn(usize) -> Attributes + Sync,
+        program: &impl VertexProgram<N>,
+    ) {
+        let stride = N.max(1);
+        self.stride = stride;
+        self.positions.resize(count, [0.0; 4]);
+        self.corners.resize(count, Corner::default());
+        self.outside.resize(count, 0);
+        self.varyings.resize(count * stride, 0.0);
+        let shaded = self.positions.par_chunks_mut(GROUP).zip(self.varyings.par_chunks_mut(GROUP * stride));
+        let placed = self.corners.par_chunks_mut(GROUP).zip(self.outside.par_chunks_mut(GROUP));
+        shaded.zip(placed).enumerate().for_each(|(group, ((positions, varyings), (corners, outside)))| {
+            let vertices = positions.iter_mut().zip(varyings.chunks_exact_mut(stride));
+            for (vertex, (position, varyings)) in (group * GROUP..).zip(vertices) {
+                let output = program(&attributes(vertex));
+                *position = output.0;
+                varyings[..N].copy_from_slice(&output.1);
+            }
+            dispatch(Place { viewport, positions, corners, outside });
+        });
+    }
 }

@@ -19,6 +19,7 @@ pub fn fragment<'a, L: Lane>(
     u_texture_cubemap: SamplerCube<'a>,
 ) -> impl Fn(&[L; 11]) -> Vec3<L> + use<'a, L> {
     let u = *u;
+    #[inline(always)]
     move |&[x, y, z, nx, ny, nz, tx, ty, tz, s, t]| {
         let (v_position, v_normal, v_tangent) = (vec3(x, y, z), vec3(nx, ny, nz), vec3(tx, ty, tz));
         let v_uv = [s, t];

@@ -11,6 +11,7 @@ pub use super::default::position_normal as vertex;
 /// `diffuse.frag`
 pub fn fragment<L: Lane>(u: &Uniforms) -> impl Fn(&[L; 6]) -> Vec3<L> + use<L> {
     let Uniforms { u_color, u_light_pos, u_light_intensity, u_kd, .. } = *u;
+    #[inline(always)]
     move |&[x, y, z, nx, ny, nz]| {
         let (v_position, v_normal) = (vec3(x, y, z), vec3(nx, ny, nz));
         let n = normalize(v_normal);

@@ -15,6 +15,7 @@ pub fn fragment<'a, L: Lane>(
     u_texture_cubemap: SamplerCube<'a>,
 ) -> impl Fn(&[L; 6]) -> Vec3<L> + use<'a, L> {
     let u_cam_pos = u.u_cam_pos;
+    #[inline(always)]
     move |&[x, y, z, nx, ny, nz]| {
         let (v_position, v_normal) = (vec3(x, y, z), vec3(nx, ny, nz));
         let n = normalize(v_normal);

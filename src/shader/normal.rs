@@ -10,6 +10,7 @@ pub use super::default::normal as vertex;
 
 /// `normal.frag`
 pub fn fragment<L: Lane>(_u: &Uniforms) -> impl Fn(&[L; 3]) -> Vec3<L> + use<L> {
+    #[inline(always)]
     move |&[x, y, z]| {
         let v_normal = vec3(x, y, z);
         let n = normalize(v_normal);

@@ -28,6 +28,7 @@ pub(super) fn blinn_phong<L: Lane>(u: &Uniforms, v_position: Vec3<L>, n: Vec3<L>
 /// `phong.frag`
 pub fn fragment<L: Lane>(u: &Uniforms) -> impl Fn(&[L; 6]) -> Vec3<L> + use<L> {
     let u = *u;
+    #[inline(always)]
     move |&[x, y, z, nx, ny, nz]| {
         let (v_position, v_normal) = (vec3(x, y, z), vec3(nx, ny, nz));
         let n = normalize(v_normal);

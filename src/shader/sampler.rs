@@ -8,7 +8,7 @@
 use super::glsl::{Vec3, dot, vec3};
 use crate::{
     cubemap::Cubemap,
-    lanes::{Lane, WIDTH},
+    lanes::{Lane, WIDTH, Wide},
     scene::Filter,
     texture::Texture,
 };
@@ -34,8 +34,9 @@ pub struct SamplerCube<'a> {
 /// `texture(sampler2D, vec2(u, v)).rgb`
 #[inline(always)]
 pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
-    let (w, h) = (sampler.texture.width(), sampler.texture.height());
-    look_up(sampler.filter, u, v, w, h, |_, i, j| sampler.texture.texels()[wrap(j, h) * w + wrap(i, w)])
+    let Sampler2d { texture, filter } = sampler;
+    let texels = texture.texels();
+    look_up(filter, [u, v], [texture.width(), texture.height()], Edge::Repeat, |_| texels)
 }
 
 /// `texture(samplerCube, direction).rgb`. Ties between axes: z before y before x. The zero
@@ -43,10 +44,10 @@ pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
 #[inline(always)]
 pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Vec3<L> {
     let (face, s, t) = cube_face(direction);
-    let size = sampler.cubemap.size();
-    look_up(sampler.filter, s, t, size, size, |lane, i, j| {
-        let texture = &sampler.cubemap.faces()[clamp(to_index(face.lane(lane)), 6)];
-        texture.texels()[clamp(j, size) * size + clamp(i, size)]
+    let (faces, size) = (sampler.cubemap.faces(), sampler.cubemap.size());
+    let face = face.to_whole();
+    look_up(sampler.filter, [s, t], [size; 2], Edge::Clamp, |lane| {
+        faces[face.0[lane].cast_unsigned() as usize].texels()
     })
 }
 
@@ -72,31 +73,41 @@ fn cube_face<L: Lane>(r: Vec3<L>) -> (L, L, L) {
     (or_middle(face, zero), coordinate(sc), coordinate(tc))
 }
 
-/// Filters `fetch(lane, i, j)` around (u·w, v·h).
+/// A column or row of texels per lane, 0..n.
+type Places = Wide<u32>;
+
+/// What lies beyond the edge of a picture.
+#[derive(Clone, Copy)]
+enum Edge {
+    /// REPEAT
+    Repeat,
+    /// CLAMP_TO_EDGE
+    Clamp,
+}
+
+/// Filters texels around (u·w, v·h). `texels(lane)` is the picture that a lane reads.
 #[inline(always)]
-fn look_up<L: Lane>(
+fn look_up<'a, L: Lane>(
     filter: Filter,
-    u: L,
-    v: L,
-    w: usize,
-    h: usize,
-    fetch: impl Fn(usize, i64, i64) -> [f32; 4],
+    [u, v]: [L; 2],
+    [w, h]: [usize; 2],
+    edge: Edge,
+    texels: impl Fn(usize) -> &'a [[f32; 4]],
 ) -> Vec3<L> {
+    let (w, h) = (side(w), side(h));
     let (x, y) = (u * size(w), v * size(h));
     match filter {
         Filter::Nearest => {
-            let (i, j) = (x.floor(), y.floor());
-            gather(|lane| fetch(lane, to_index(i.lane(lane)), to_index(j.lane(lane))))
+            let ([i, _], [j, _]) = (edge.neighbors(x.floor(), w), edge.neighbors(y.floor(), h));
+            gather(&texels, w, &i, &j)
         }
         Filter::Bilinear => {
             let (x, y) = (x - L::splat(0.5), y - L::splat(0.5));
             let (i, j) = (x.floor(), y.floor());
-            let texel = |di: i64, dj: i64| {
-                gather(|lane| fetch(lane, to_index(i.lane(lane)) + di, to_index(j.lane(lane)) + dj))
-            };
             let (fx, fy) = (x - i, y - j);
-            let top = mix(texel(0, 0), texel(1, 0), fx);
-            let bottom = mix(texel(0, 1), texel(1, 1), fx);
+            let ([i0, i1], [j0, j1]) = (edge.neighbors(i, w), edge.neighbors(j, h));
+            let top = mix(gather(&texels, w, &i0, &j0), gather(&texels, w, &i1, &j0), fx);
+            let bottom = mix(gather(&texels, w, &i0, &j1), gather(&texels, w, &i1, &j1), fx);
             mix(top, bottom, fy)
         }
     }
@@ -108,40 +119,56 @@ fn mix<L: Lane>(a: Vec3<L>, b: Vec3<L>, f: L) -> Vec3<L> {
     a + (b - a) * f
 }
 
-/// One texel per lane, turned from pixels into channels.
+/// The texel in column i and row j of each lane's picture of width `w`, turned from pixels into channels.
 #[inline(always)]
-fn gather<L: Lane>(fetch: impl Fn(usize) -> [f32; 4]) -> Vec3<L> {
-    let mut texels = [[0.0; 4]; WIDTH];
-    for (lane, texel) in texels.iter_mut().enumerate().take(L::LANES) {
-        *texel = fetch(lane);
+fn gather<'a, L: Lane>(texels: &impl Fn(usize) -> &'a [[f32; 4]], w: u32, i: &Places, j: &Places) -> Vec3<L> {
+    let mut fetched = [[0.0; 4]; WIDTH];
+    for (lane, texel) in fetched.iter_mut().enumerate().take(L::LANES) {
+        *texel = texels(lane)[(j.0[lane] * w + i.0[lane]) as usize];
     }
-    let channel = |c: usize| L::from_fn(|lane| texels[lane][c]);
+    let channel = |c: usize| L::from_fn(|lane| fetched[lane][c]);
     vec3(channel(0), channel(1), channel(2))
 }
 
+/// A side of a texture as indices are counted.
+#[expect(clippy::cast_possible_truncation, reason = "textures are at most 16384 texels wide")]
+#[inline(always)]
+fn side(n: usize) -> u32 {
+    n as u32
+}
+
 #[expect(clippy::cast_precision_loss, reason = "textures are at most 16384 texels wide")]
-fn size<L: Lane>(n: usize) -> L {
+#[inline(always)]
+fn size<L: Lane>(n: u32) -> L {
     L::splat(n as f32)
 }
 
-/// A texel index; anything out of range saturates, NaN becomes 0.
-#[expect(clippy::cast_possible_truncation, reason = "saturates at half of the range")]
-#[inline(always)]
-fn to_index(value: f64) -> i64 {
-    i64::from(value as i32)
+impl Edge {
+    /// The columns (or rows) i and i + 1, brought into 0..n.
+    #[inline(always)]
+    fn neighbors<L: Lane>(self, i: L, n: u32) -> [Places; 2] {
+        match self {
+            Self::Repeat => repeat(i.to_whole(), n),
+            Self::Clamp => clamp(i.to_whole(), n),
+        }
+    }
 }
 
-/// REPEAT: the Euclidean modulus.
-#[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "0 <= result < n")]
+/// The Euclidean modulus of i and of i + 1.
 #[inline(always)]
-fn wrap(i: i64, n: usize) -> usize {
-    let n = n as i64;
-    if (0..n).contains(&i) { i as usize } else { i.rem_euclid(n) as usize }
+fn repeat(i: Wide<i32>, n: u32) -> [Places; 2] {
+    let mut first = i.each(i32::cast_unsigned);
+    // Nearly always all are inside; a division costs more than the rest of the look-up.
+    if first.0.iter().fold(false, |outside, &i| outside | (i >= n)) {
+        first = i.each(|i| i.rem_euclid(n.cast_signed()).cast_unsigned());
+    }
+    [first, first.each(|i| if i + 1 == n { 0 } else { i + 1 })]
 }
 
-/// CLAMP_TO_EDGE.
-#[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "0 <= result < n")]
+/// i and i + 1, clamped.
 #[inline(always)]
-fn clamp(i: i64, n: usize) -> usize {
-    i.clamp(0, n as i64 - 1) as usize
+fn clamp(i: Wide<i32>, n: u32) -> [Places; 2] {
+    let last = n.cast_signed() - 1;
+    let before = i.each(|i| i.clamp(-1, last));
+    [before.each(|i| i.max(0).cast_unsigned()), before.each(|i| (i + 1).min(last).cast_unsigned())]
 }
