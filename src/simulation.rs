@@ -4,8 +4,8 @@ mod guarded;
 mod locate;
 mod scheme;
 mod state;
-mod stiffness;
 mod stopwatch;
+mod variants;
 
 pub use stopwatch::Timings;
 
@@ -16,7 +16,7 @@ use crate::cloth::energy::Energy;
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
 use crate::cloth::{Constants, Counters, Points};
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::math::StateHash;
 use crate::scene::Scene;
 
@@ -50,14 +50,26 @@ impl Simulation {
     /// The simulation of `scene` at its start.
     ///
     /// # Errors
-    /// [`Kind::Scene`] when the cloth does not fit in memory, has fewer than 2 x 2 points, or a pin
+    /// [`crate::error::Kind::Scene`] when the cloth does not fit in memory, has fewer than 2 x 2 points, or a pin
     /// lies outside it.
     pub fn new(scene: &Scene) -> Result<Self> {
+        Self::build(scene, None)
+    }
+
+    /// The simulation of `scene` with its points at `x` at the start, where its springs are at rest.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`]; [`crate::error::Kind::Scene`] too when there is not one position for each point.
+    pub fn starting_at(scene: &Scene, x: &Points) -> Result<Self> {
+        Self::build(scene, Some(x))
+    }
+
+    fn build(scene: &Scene, start: Option<&Points>) -> Result<Self> {
         Ok(Self {
             steps_per_frame: u64::from(scene.sim.steps_per_frame),
             steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
             steps: 0,
-            cloth: State::new(scene)?,
+            cloth: State::new(scene, start)?,
             counters: Counters::default(),
             stopwatch: Stopwatch::default(),
             no_points: Points::default(),
@@ -69,12 +81,11 @@ impl Simulation {
     /// state kept from an earlier run. The springs keep their rest lengths, the clock its time.
     ///
     /// # Errors
-    /// [`Kind::Scene`] when there is not one position for each point of the cloth.
+    /// [`crate::error::Kind::Scene`] when there is not one position for each point of the cloth.
     pub fn set_state(&mut self, x: Points, last: Points) -> Result<()> {
         let points = self.positions().len();
-        if [&x, &last].iter().any(|state| [&state.x, &state.y, &state.z].iter().any(|c| c.len() != points)) {
-            return Err(Error::new(Kind::Scene, format!("the state is not one of {points} points")));
-        }
+        state::check_size(&x, points)?;
+        state::check_size(&last, points)?;
         if let Some(cloth) = &mut self.cloth {
             (cloth.x, cloth.last) = (x, last);
             cloth.set_budget();
@@ -96,7 +107,7 @@ impl Simulation {
     /// than its forces can give it, nor got more if a ledger is kept (see `src/cloth/guard.rs`).
     ///
     /// # Errors
-    /// [`Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
+    /// [`crate::error::Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
     pub fn advance_frame(&mut self) -> Result<()> {
         let before = self.steps;
         if let Some(cloth) = &mut self.cloth {
@@ -174,7 +185,7 @@ impl Simulation {
     /// Keeps an energy ledger from now on. The cloth moves as without one, to the last bit.
     ///
     /// # Errors
-    /// [`Kind::Scene`] when the ledger does not fit in memory.
+    /// [`crate::error::Kind::Scene`] when the ledger does not fit in memory.
     pub fn record_ledger(&mut self) -> Result<()> {
         if let Some(cloth) = &mut self.cloth {
             cloth.recorder = Some(Recorder::new(cloth.x.len(), true)?);

@@ -26,6 +26,9 @@ macro_rules! built_in {
 
 const TEXTURES: [(&str, &[u8]); 4] = built_in!["texture_1", "texture_2", "texture_3", "texture_4"];
 
+/// The name of the built-in cube map.
+const BUILT_IN_CUBE: &str = "cube";
+
 /// Faces of the built-in cube map, in the order of [`FACES`].
 const CUBE: [(&str, &[u8]); 6] =
     built_in!["cube/posx", "cube/negx", "cube/posy", "cube/negy", "cube/posz", "cube/negz"];
@@ -63,8 +66,10 @@ impl TextureSource {
     /// As [`texture`](Self::texture) for each face, and [`Kind::Scene`] if the faces do not fit.
     pub fn cubemap(&self, name: &str) -> Result<Cubemap> {
         let [px, nx, py, ny, pz, nz] = match self {
-            Self::BuiltIn if name == "cube" => CUBE.map(|(face, bytes)| Texture::decode(face, bytes)),
-            Self::BuiltIn => return Err(unknown("cube map", name, "cube")),
+            Self::BuiltIn if is_built_in_cubemap(name) => {
+                CUBE.map(|(face, bytes)| Texture::decode(face, bytes))
+            }
+            Self::BuiltIn => return Err(unknown("cube map", name, BUILT_IN_CUBE)),
             Self::Folder(folder) => {
                 check_name(name)?;
                 FACES.map(|face| read_texture(&folder.join(name), face))
@@ -83,7 +88,17 @@ fn built_in_texture(name: &str) -> Result<Texture> {
 
 fn unknown(what: &str, name: &str, known: &str) -> Error {
     Error::new(Kind::Scene, format!("there is no built-in {what} {name:?}"))
-        .with_help(format!("built in: {known}; others come from a folder"))
+        .with_help(format!("built in: {known}; --textures DIR takes all from a folder of your own"))
+}
+
+/// Whether a texture of this name is built in.
+pub(crate) fn is_built_in_texture(name: &str) -> bool {
+    TEXTURES.iter().any(|(known, _)| *known == name)
+}
+
+/// Whether a cube map of this name is built in.
+pub(crate) fn is_built_in_cubemap(name: &str) -> bool {
+    name == BUILT_IN_CUBE
 }
 
 /// A name stands for one entry of the folder and may not lead out of it.
@@ -121,7 +136,9 @@ fn missing(folder: &Path, name: &str) -> Error {
     let [png, jpg, jpeg] = ENDINGS.map(|ending| format!("{name}.{ending}"));
     let message =
         format!("there is no texture {name} in {}: looked for {png}, {jpg} and {jpeg}", folder.display());
-    Error::new(Kind::Scene, message).with_help(holdings(folder))
+    let advice = "a folder replaces the whole built-in set: copy what you want to keep of it from textures/ of \
+                  the source, or name a texture that is there";
+    Error::new(Kind::Scene, message).with_help(format!("{}; {advice}", holdings(folder)))
 }
 
 /// One sentence that says what a folder holds.

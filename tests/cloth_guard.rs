@@ -98,6 +98,22 @@ fn a_blow_up_that_holds_little_energy_is_seen_by_the_ledger() {
     }
 }
 
+/// A cloth so heavy that the stretch limit bears it: its springs answer each correction, more the
+/// nearer the step is to the bound, and put in more than the allowance while the cloth comes to rest.
+#[test]
+fn springs_that_answer_the_stretch_limit_are_no_blow_up() {
+    let mut scene = scenes::pinned2();
+    (scene.sim.fps, scene.cloth.as_mut().unwrap().ks) = (5.7, 500.0);
+    assert!(stability(&scene).is_always_stable());
+    let mut simulation = Simulation::new(&scene).unwrap();
+    simulation.record_ledger().unwrap();
+    (0..40).for_each(|_| simulation.advance_frame().unwrap());
+    let (ledger, kinetic) = (simulation.ledger().unwrap(), simulation.energy().kinetic);
+    let put_in = ledger.springs + ledger.gravity;
+    // Half of M g L, as `src/cloth/guard.rs` has it, is 735 J.
+    assert!(put_in > 735.0 && kinetic < 30.0, "{put_in} J in, {kinetic} J in motion");
+}
+
 /// The stretch limit keeps strains at 10 % and every number finite, and yet it is seen.
 #[test]
 fn a_blow_up_behind_the_stretch_limit_is_seen_and_can_be_allowed() {

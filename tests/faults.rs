@@ -24,7 +24,8 @@ struct Fault {
     old: String,
     /// What stands there instead.
     new: String,
-    /// `target::test`: the integration test of that name, or `lib` and the path of a unit test.
+    /// `target::test`: the integration test of that name with its module if it has one, or `lib` and
+    /// the path of a unit test.
     caught_by: String,
 }
 
@@ -43,8 +44,9 @@ fn every_fault_has_its_place_and_its_test() {
         assert_eq!(text.matches(&old).count(), 1, "{fault}: the old text in {file}");
         assert_ne!(old, new, "{fault}");
         let (path, test) = caught_by.rsplit_once("::").unwrap();
-        let file = match path.strip_prefix("lib::") {
-            Some(module) => format!("src/{}.rs", module.trim_end_matches("::tests").replace("::", "/")),
+        let path = path.trim_end_matches("::tests").replace("::", "/");
+        let file = match path.strip_prefix("lib/") {
+            Some(module) => format!("src/{module}.rs"),
             None => format!("tests/{path}.rs"),
         };
         let text = fs::read_to_string(package().join(file)).unwrap();
@@ -122,6 +124,7 @@ fn run(copy: &Path, caught_by: &str) -> (bool, String) {
         .env("CARGO_INCREMENTAL", "1")
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .env("RUST_BACKTRACE", "0")
+        .env("DRAPE_REQUIRE_GL", "1")
         .output()
         .unwrap();
     let text = [output.stdout, output.stderr].concat();

@@ -14,6 +14,13 @@ fn drape(folder: &Path, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(arguments).output().expect("the program starts")
 }
 
+/// Runs a line that begins with `drape` as a shell does.
+fn shell(folder: &Path, line: &str) -> Output {
+    let program = format!("'{}'", assert_cmd::cargo::cargo_bin!("drape").display());
+    let line = line.replacen("drape", &program, 1);
+    Command::new("sh").args(["-c", &line]).current_dir(folder).output().expect("the shell starts")
+}
+
 fn gallery(folder: &Path, out: &str, threads: &str) -> Output {
     let only = FIGURES.iter().flat_map(|name| ["--only", name]);
     let arguments: Vec<&str> = ["gallery", out, "--threads", threads].into_iter().chain(only).collect();
@@ -44,10 +51,13 @@ fn every_command_on_the_page_makes_its_picture() {
     symlink(scenes, folder.path().join("scenes")).expect("a link to the scenes");
     let commands = between(&page, "<pre>", "</pre>");
     assert_eq!(commands.len(), FIGURES.len());
+    assert!(commands.iter().any(|command| command.contains("'camera.target=[")), "lists are quoted");
     for (command, name) in commands.iter().zip(FIGURES) {
-        let words: Vec<&str> = command.split_whitespace().collect();
-        assert!(words[0] == "drape" && words.contains(&format!("{name}.png").as_str()), "{command}");
-        let output = drape(folder.path(), &words[1..]);
+        assert!(
+            command.starts_with("drape render ") && command.contains(&format!(" {name}.png ")),
+            "{command}"
+        );
+        let output = shell(folder.path(), command);
         assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
         let file = format!("{name}.png");
         assert!(read(folder.path().join(&file)) == read(folder.path().join("out").join(&file)), "{command}");
@@ -73,15 +83,18 @@ fn page_and_pictures_are_the_same_bytes_for_every_number_of_threads() {
 #[test]
 fn a_page_of_some_figures_shows_these() {
     let folder = folder();
-    let only = ["gallery", "--only", "part1-all", "--only", "part5-tball", "--size", "64x50"];
-    assert!(drape(folder.path(), &only).status.success());
+    let only = ["gallery", "--only", "part1-all", "--only", "part3-plane", "--size", "64x50"];
+    let output = drape(folder.path(), &only);
+    assert!(output.status.success());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.ends_with("gallery/index.html: figures 2, pictures 3\n"), "{said}");
     let mut names: Vec<_> =
         fs::read_dir(folder.path().join("gallery")).expect("the folder").flatten().collect();
     names.sort_by_key(fs::DirEntry::file_name);
     let names: Vec<_> = names.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, ["index.html", "part1-all.png", "part5-tball.png"]);
+    assert_eq!(names, ["index.html", "part1-all.png", "part3-plane-textured.png", "part3-plane.png"]);
     let page = String::from_utf8(read(folder.path().join("gallery/index.html"))).expect("UTF-8");
-    assert_eq!(between(&page, "<section id=\"", "\""), ["part1-all", "part5-tball"]);
+    assert_eq!(between(&page, "<section id=\"", "\""), ["part1-all", "part3-plane"]);
 }
 
 #[test]

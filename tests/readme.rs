@@ -51,6 +51,23 @@ fn outputs(line: &str) -> Vec<&str> {
     words.filter(|word| [".png", ".apng", ".obj"].iter().any(|ending| word.ends_with(ending))).collect()
 }
 
+/// What a command left in the folder; folders end in `/`.
+fn left(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry"));
+    let name = |entry: fs::DirEntry| {
+        let slash = if entry.path().is_dir() { "/" } else { "" };
+        format!("{}{slash}", entry.file_name().to_string_lossy())
+    };
+    entries.map(name).filter(|name| !["scenes/", "bin/"].contains(&name.as_str())).collect()
+}
+
+/// Whether `.gitignore` has `/NAME`, or `/*.ENDING` for the name's ending.
+fn ignored(name: &str) -> bool {
+    let text = fs::read_to_string(repository().join(".gitignore")).expect("a .gitignore");
+    let ending = name.rsplit_once('.').map(|(_, ending)| format!("/*.{ending}"));
+    text.lines().any(|line| line == format!("/{name}") || Some(line) == ending.as_deref())
+}
+
 #[test]
 fn every_command_runs_and_leaves_what_it_names() {
     let lines = lines_of("sh");
@@ -75,8 +92,15 @@ fn all_run(lines: &[String]) {
             let missing: Vec<_> =
                 outputs(line).into_iter().filter(|name| !folder.path().join(name).is_file()).collect();
             let said = String::from_utf8_lossy(&output.stderr);
-            let wrong = !output.status.success() || !missing.is_empty();
-            wrong.then(|| format!("{line}\n  {}, missing {missing:?}\n{said}", output.status))
+            let seen_by_git =
+                left(folder.path()).into_iter().filter(|name| !ignored(name)).collect::<Vec<_>>();
+            let wrong = !output.status.success() || !missing.is_empty() || !seen_by_git.is_empty();
+            wrong.then(|| {
+                format!(
+                    "{line}\n  {}, missing {missing:?}, not ignored {seen_by_git:?}\n{said}",
+                    output.status
+                )
+            })
         })
         .collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));

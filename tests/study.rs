@@ -149,6 +149,28 @@ fn a_study_that_was_stopped_goes_on_where_it_was() {
     assert_eq!(without_times(&whole), without_times(&rest));
 }
 
+/// A part of a study has the errors of the whole one, and asks for what there is.
+#[test]
+fn runs_can_be_picked_by_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = source(folder.path());
+    let (whole, [all, _]) = run(&source, &extent(), folder.path());
+    let only = vec!["BDF2 at 600 steps/s".to_owned(), "XPBD, 1 pass at 6".to_owned()];
+    let (part, counts) = run(&source, &Extent { only, ..extent() }, folder.path());
+    assert!(counts[0] == 0 && counts[1] < all / 4, "{counts:?} of {all}: everything is kept");
+    let [whole, part_of] = [&whole.panels[0], &part.panels[0]];
+    let names: Vec<String> = (0..part_of.cells.len()).map(|i| part_of.name(i)).collect();
+    assert_eq!(names, ["XPBD, 1 pass at 60 steps/s", "XPBD, 1 pass at 600 steps/s", "BDF2 at 600 steps/s"]);
+    assert_eq!(part_of.reference.rates, whole.reference.rates);
+    for (i, cell) in part_of.cells.iter().enumerate() {
+        let same = (0..whole.cells.len()).find(|&j| whole.name(j) == part_of.name(i)).unwrap();
+        assert_eq!(cell.errors, whole.cells[same].errors);
+    }
+    assert!(part.pictures.is_none() && !study::page(&part, "scene.json").unwrap().contains("No pictures"));
+    let none = Extent { only: vec!["BDF3".to_owned()], ..extent() };
+    assert_eq!(study::steps(&source, &none).map_err(|e| e.kind), Err(Kind::Usage));
+}
+
 #[test]
 fn a_scene_without_a_cloth_is_nothing_to_study() {
     let folder = tempfile::tempdir().unwrap();

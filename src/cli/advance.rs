@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use super::progress::Progress;
+use crate::cloth::Points;
 use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
 use crate::error::{Error, Kind, Result};
@@ -22,7 +23,24 @@ pub(super) fn start(
     allow_unstable: bool,
     session: &Session,
 ) -> Result<Simulation> {
-    let mut simulation = Simulation::new(scene)?;
+    begin(scene, frames, None, allow_unstable, session)
+}
+
+/// As [`start`], with the points at `x` if that is given.
+///
+/// # Errors
+/// As [`start`] and [`Simulation::starting_at`].
+pub(super) fn begin(
+    scene: &Scene,
+    frames: u64,
+    x: Option<&Points>,
+    allow_unstable: bool,
+    session: &Session,
+) -> Result<Simulation> {
+    let mut simulation = match x {
+        Some(x) => Simulation::starting_at(scene, x)?,
+        None => Simulation::new(scene)?,
+    };
     if allow_unstable {
         simulation.allow_unstable();
     }
@@ -116,23 +134,38 @@ pub(super) struct Until {
     pub(super) rest: bool,
 }
 
+/// What came of moving a cloth.
+pub(super) struct Moved {
+    /// The wall time that it took.
+    pub(super) elapsed: Duration,
+    /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not: it was checked,
+    /// though nothing failed, so it ends a command whose results are there.
+    pub(super) restless: Option<Error>,
+}
+
+impl Moved {
+    /// The end of a command whose results are written.
+    pub(super) fn result(self) -> Result<()> {
+        self.restless.map_or(Ok(()), Err)
+    }
+}
+
 /// Moves the cloth of `scene` on to the last frame; `each` sees the start and every frame. A scene
-/// without a cloth is always at rest. Returns the wall time that took.
+/// without a cloth is always at rest.
 ///
 /// # Errors
-/// [`Kind::Difference`] when a cloth that has to is not at rest in time: it was checked, and
-/// found to move, though nothing failed. Otherwise those of the simulation and of `each`, and
-/// [`Kind::Signal`] between two frames.
+/// Those of the simulation and of `each`, and [`Kind::Signal`] between two frames.
 pub(super) fn advance_until(
     simulation: &mut Simulation,
     scene: &Scene,
     until: Until,
     session: &Session,
     mut each: impl FnMut(&Simulation) -> Result<()>,
-) -> Result<Duration> {
+) -> Result<Moved> {
     let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest) else {
         let last = if until.rest { 0 } else { until.frames };
-        return advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true));
+        let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
+        return Ok(Moved { elapsed, restless: None });
     };
     let mut watch = RestWatch::new(cloth, &scene.sim, simulation.positions())?;
     let mut motion = None;
@@ -143,10 +176,11 @@ pub(super) fn advance_until(
         }
         Ok(!motion.is_some_and(|motion| watch.is_rest(motion)))
     })?;
-    match motion {
-        Some(motion) if watch.is_rest(motion) => Ok(elapsed),
-        _ => Err(no_rest(simulation, motion, watch.limit())),
-    }
+    let restless = match motion {
+        Some(motion) if watch.is_rest(motion) => None,
+        _ => Some(no_rest(simulation, motion, watch.limit())),
+    };
+    Ok(Moved { elapsed, restless })
 }
 
 /// The error of a cloth that still moves at the end.
@@ -159,7 +193,10 @@ fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Er
         )
     });
     let message = format!("not at rest after {} frames, {} s{does}", simulation.frame(), simulation.time());
-    Error::new(Kind::Difference, message).with_help("give it more time with --time, or more damping")
+    Error::new(Kind::Difference, message).with_help(
+        "the results are those of this frame; more time (--time) or damping may help, but not where the step is \
+         too long, nothing damps, or self-collision works against the stretch limit: see docs/restless.md",
+    )
 }
 
 /// Moves `simulation` on to frame `frames` while `each`, which sees the start and every frame, says

@@ -9,7 +9,7 @@ use super::advance::start;
 use super::film::Film;
 use super::look::Look;
 use super::moments::{Frames, Moments};
-use super::scene::{Leniency, SceneArgs, frame_at};
+use super::scene::{Leniency, SceneArgs, frame_at, seconds};
 use super::target::{Marks, Target};
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
@@ -32,9 +32,12 @@ pub(super) struct Args {
     /// scene has left are kept
     #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// Simulated frames from A up to, without, B; frame 0 is the start (default: 0 to the scene's render.time)
+    /// Simulated frames from A up to, without, B; frame 0 is the start (default: those of --time)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
+    /// Simulated seconds to show from the start (default: the scene's render.time)
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
+    time: Option<f64>,
     /// Pictures per second, 1 to 1000. It plays in real time: picture k shows the simulated frame nearest to
     /// k / N seconds after the first (default: every frame, but at most 50 a second in a GIF)
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=u64::from(MAX_FPS)))]
@@ -100,14 +103,11 @@ impl Args {
     }
 
     fn moments(&self, scene: &Scene, fps: u16) -> Result<Moments> {
-        let frames = self.frames.clone().map_or(0..frame_at(None, scene), |frames| frames.0);
+        let frames = self.frames.clone().map_or(0..frame_at(self.time, scene), |frames| frames.0);
         let moments = Moments::new(frames, scene.sim.fps, fps);
         if moments.count() == 0 {
-            return Err(Error::new(
-                Kind::Nothing,
-                "the scene's render.time is 0, so there is nothing to show",
-            )
-            .with_help("ask for frames with --frames"));
+            return Err(Error::new(Kind::Nothing, "the time to show is 0, so there is nothing to show")
+                .with_help("ask for more with --time or --frames"));
         }
         Ok(moments)
     }

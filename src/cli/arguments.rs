@@ -69,7 +69,7 @@ pub(super) enum Command {
     Stability(stability::Args),
     /// Make every figure of the report, and a page of them
     Gallery(gallery::Args),
-    /// Print the JSON schema of scene files
+    /// Print the JSON schema of scene files: every key with its meaning, default and range
     Schema,
     /// Print the script that completes this program's commands and options in a shell
     Completions(texts::CompletionsArgs),

@@ -1,5 +1,6 @@
 //! `drape check`: everything that is wrong in scene files, and what would fail later; nothing run.
 
+use std::collections::BTreeSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -11,8 +12,8 @@ use super::scene::Changes;
 use super::ui::paint;
 use crate::cloth::stability::Stability;
 use crate::error::{Diagnostic, Error, Kind, Result};
-use crate::scene::{self, Integrator, Plan, Scene};
-use crate::texture_source::TextureSource;
+use crate::scene::{self, Integrator, Material, Plan, Scene};
+use crate::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
 
 /// What `check` takes.
 #[derive(clap::Args)]
@@ -96,13 +97,28 @@ fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
 /// What would stop a later command, though the scene itself is valid: textures that cannot be read,
 /// a cloth that cannot be moved.
 fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
-    let plan = Plan::of(scene);
-    let images = plan.textures.iter().filter_map(|name| textures.texture(name).err());
-    let cubes = plan.environments.iter().filter_map(|name| textures.cubemap(name).err());
+    let [images, cubes] = names(scene);
+    let images = images.iter().filter_map(|name| textures.texture(name).err());
+    let cubes = cubes.iter().filter_map(|name| textures.cubemap(name).err());
     let mut warnings: Vec<_> =
         images.chain(cubes).map(|error| warning(file, "check::texture", &error)).collect();
     warnings.extend(instability(scene).map(|error| warning(file, "check::unstable", &error)));
     warnings
+}
+
+/// The textures and the cube maps to look for: those that the scene's shaders read, and those whose
+/// name is not built in, which were named to be read by another shader.
+fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
+    let plan = Plan::of(scene);
+    let [mut images, mut cubes] = [plan.textures, plan.environments].map(BTreeSet::from_iter);
+    let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
+    let planes = scene.planes.iter().map(|plane| &plane.material);
+    let spheres = scene.spheres.iter().map(|sphere| &sphere.material);
+    for Material { texture, height_map, environment, .. } in cloth.chain(planes).chain(spheres) {
+        images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
+        cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());
+    }
+    [images, cubes]
 }
 
 /// Why the first step would be refused, if it would.
@@ -135,7 +151,12 @@ impl Findings {
             self.errors.iter().chain(&self.warnings).map(|found| paint(&found.rendered, colored)).collect();
         blocks.extend(self.failure.as_ref().map(|failure| paint(&format!("error: {failure}"), colored)));
         if self.kind.is_none() {
-            blocks.push(format!("{}: valid", self.file));
+            let warned = match self.warnings.len() {
+                0 => String::new(),
+                1 => ", with a warning".to_owned(),
+                several => format!(", with {several} warnings"),
+            };
+            blocks.push(format!("{}: valid{warned}", self.file));
         }
         blocks.join("\n\n") + "\n"
     }

@@ -1,42 +1,33 @@
 //! `drape compare-positions`: where the positions of another program part from ours, and why.
 
+mod mistakes;
+mod parting;
+mod states;
+mod verdict;
+
 use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::advance::start;
-use super::mistakes::{self, Mistake};
+use self::parting::{Difference, Ours};
+use self::verdict::{Case, Tried, Verdict};
+use super::Session;
+use super::advance::begin;
 use super::moments::Frames;
 use super::scene::{Leniency, SceneArgs, frame_at};
-use super::states::{self, State};
-use super::{Session, progress::Progress};
-use crate::cloth::{Counters, Points};
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
-use crate::simulation::Simulation;
-
-/// How many states from the first that differs a mistake is held against. Further on chaos hides it.
-const WINDOW: usize = 10;
-
-/// A mistake that leaves less than this part of the difference is the one that was made.
-const EXPLAINS: f64 = 1e-3;
-
-/// A mistake that leaves less than this part of the difference is like the one that was made.
-const RESEMBLES: f64 = 0.3;
-
-/// Largest difference, in metres, that a changed order of operations is known to make at first.
-const ROUNDING: f64 = 1e-11;
 
 /// What `compare-positions` takes.
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The other program's positions, x y z of each point, row by row: f64 little-endian or text; several
-    /// states one after the other
+    /// The other program's positions, x y z of each point, row by row: f64 little-endian, or text with 17
+    /// digits (%.17g); several states one after the other
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The frame of the one state in the file
+    /// The frame of the one state in the file (default: that of the scene's render.time)
     #[arg(long, value_name = "N", conflicts_with = "frames")]
     frame: Option<u64>,
     /// The frames of the states in the file, from A up to, without, B (default: found by their number)
@@ -62,64 +53,34 @@ struct Report {
     verdict: String,
 }
 
-/// The first difference.
-#[derive(Serialize)]
-struct Difference {
-    frame: u64,
-    /// Column and row of the first point that differs.
-    point: [usize; 2],
-    ours: [f64; 3],
-    theirs: [Option<f64>; 3],
-    /// Distance of that point, the largest in its frame, and in the last frame, in metres.
-    distance: Option<f64>,
-    largest: Option<f64>,
-    largest_at_the_end: Option<f64>,
-}
-
-/// A mistake that was run.
-#[derive(Serialize)]
-struct Tried {
-    mistake: &'static str,
-    /// 0: the mistake explains everything, 1: nothing.
-    left: f64,
-}
-
 /// Compares and prints; a difference beyond the tolerance is an error of [`Kind::Difference`].
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there are no positions"));
     };
-    let theirs = states::read(&args.file, cloth.num_width_points * cloth.num_height_points)?;
+    let theirs = states::read(&args.file, [cloth.num_width_points, cloth.num_height_points])?;
     let first_frame = args.first_frame(theirs.len(), &scene)?;
-    session.ui.note(&format!("{} states, the first at frame {first_frame}", theirs.len()));
+    let plural = if theirs.len() == 1 { "" } else { "s" };
+    session.ui.note(&format!("{} state{plural}, the first at frame {first_frame}", theirs.len()));
     let last_frame = first_frame + theirs.len() as u64 - 1;
-    let simulation = start(&scene, last_frame, args.leniency.allow_unstable, session)?;
-    let ours = simulate(simulation, first_frame, theirs.len(), session)?;
-    let mut report = Report {
-        states: theirs.len(),
-        first_frame,
-        tolerance: args.tolerance,
-        difference: None,
-        mistakes: Vec::new(),
-        verdict: "the positions are those of the method".to_owned(),
+    let mut simulation = begin(&scene, last_frame, None, args.leniency.allow_unstable, session)?;
+    let start = parting::start_of(&theirs[0], simulation.positions(), cloth).filter(|_| first_frame == 0);
+    if let Some(start) = &start {
+        session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
+        simulation = begin(&scene, last_frame, Some(start), args.leniency.allow_unstable, session)?;
+    }
+    let ours = Ours::simulate(simulation, first_frame, theirs.len(), session)?;
+    let case = Case { scene: &scene, cloth, first_frame, start, ours: &ours, theirs: &theirs };
+    let difference = Difference::first(&case, args.tolerance);
+    let Verdict { words, mistakes } = match &difference {
+        None => Verdict::only("the positions are those of the method"),
+        Some(_) => case.judge(args.tolerance, session)?,
     };
-    let parts =
-        ours.iter().zip(&theirs).position(|(ours, theirs)| first(ours, theirs, args.tolerance).is_some());
-    if let Some(k) = parts {
-        report.difference =
-            difference(&ours, &theirs, k, first_frame, args.tolerance, cloth.num_width_points);
-        let window = k..(k + WINDOW).min(theirs.len());
-        report.mistakes = try_all(&mistakes::all(&scene), &ours, &theirs, first_frame, window, session)?;
-        report.verdict = report.judge(&ours[k], &scene);
-    }
+    let (states, tolerance) = (theirs.len(), args.tolerance);
+    let report = Report { states, first_frame, tolerance, difference, mistakes, verdict: words };
     session.print(&report, &report.text())?;
-    match report.difference {
-        None => Ok(()),
-        Some(Difference { frame, .. }) => {
-            Err(Error::new(Kind::Difference, format!("the positions part at frame {frame}")))
-        }
-    }
+    report.result()
 }
 
 impl Args {
@@ -146,128 +107,7 @@ impl Args {
     }
 }
 
-/// Our state, and what was done to get there.
-struct Ours {
-    positions: Points,
-    counters: Counters,
-}
-
-/// The states of `count` frames from `first` on.
-fn simulate(mut simulation: Simulation, first: u64, count: usize, session: &Session) -> Result<Vec<Ours>> {
-    let mut progress = Progress::new(&session.ui, "simulating", first + count as u64 - 1);
-    let mut states = Vec::new();
-    for frame in first..first + count as u64 {
-        while simulation.frame() < frame {
-            session.signals.check()?;
-            simulation.advance_frame()?;
-            progress.set(simulation.frame());
-        }
-        states.push(Ours { positions: simulation.positions().clone(), counters: simulation.counters() });
-    }
-    Ok(states)
-}
-
-/// The first point that differs.
-fn first(ours: &Ours, theirs: &State, tolerance: f64) -> Option<usize> {
-    let differs = |p: usize, theirs: [f64; 3]| {
-        let ours: [f64; 3] = ours.positions.get(p).into();
-        // A distance that is no number is not within it.
-        let within = tolerance > 0.0 && between(ours, theirs) <= tolerance;
-        ours.map(f64::to_bits) != theirs.map(f64::to_bits) && !within
-    };
-    theirs.iter().enumerate().position(|(p, &theirs)| differs(p, theirs))
-}
-
-fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|axis| a[axis] - b[axis]);
-    (x * x + y * y + z * z).sqrt()
-}
-
-/// The largest distance of two points; infinite if one is no number.
-fn largest(ours: &Points, theirs: &State) -> f64 {
-    let distances = theirs.iter().enumerate().map(|(p, &theirs)| between(ours.get(p).into(), theirs));
-    distances.map(|d| if d.is_finite() { d } else { f64::INFINITY }).fold(0.0, f64::max)
-}
-
-/// What the report says of state `k`, the first that differs.
-fn difference(
-    ours: &[Ours],
-    theirs: &[State],
-    k: usize,
-    first_frame: u64,
-    tolerance: f64,
-    width: usize,
-) -> Option<Difference> {
-    let point = first(&ours[k], &theirs[k], tolerance)?;
-    let (here, there) = (ours[k].positions.get(point).into(), theirs[k][point]);
-    let finite = |value: f64| value.is_finite().then_some(value);
-    let at_the_end = ours.last().zip(theirs.last()).map(|(ours, theirs)| largest(&ours.positions, theirs));
-    Some(Difference {
-        frame: first_frame + k as u64,
-        point: [point % width, point / width],
-        ours: here,
-        theirs: there.map(finite),
-        distance: finite(between(here, there)),
-        largest: finite(largest(&ours[k].positions, &theirs[k])),
-        largest_at_the_end: at_the_end.and_then(finite),
-    })
-}
-
-/// Runs every mistake over the states `window`; the one that comes nearest to `theirs` first.
-fn try_all(
-    mistakes: &[Mistake],
-    ours: &[Ours],
-    theirs: &[State],
-    first_frame: u64,
-    window: std::ops::Range<usize>,
-    session: &Session,
-) -> Result<Vec<Tried>> {
-    let error = |states: &[Ours]| -> f64 {
-        states
-            .iter()
-            .zip(&theirs[window.clone()])
-            .map(|(ours, theirs)| largest(&ours.positions, theirs))
-            .sum()
-    };
-    let without = error(&ours[window.clone()]);
-    let mut tried = Vec::new();
-    for mistake in mistakes {
-        let run = mistake.simulation().and_then(|simulation| {
-            simulate(simulation, first_frame + window.start as u64, window.len(), session)
-        });
-        match run {
-            // A mistake that leads nowhere is not the one that was made.
-            Err(error) if error.kind == Kind::Unstable => {}
-            Err(error) => return Err(error),
-            Ok(states) => {
-                let left = error(&states) / without;
-                tried.push(Tried {
-                    mistake: mistake.name,
-                    left: if left.is_finite() { left } else { f64::MAX },
-                });
-            }
-        }
-    }
-    tried.sort_by(|a, b| a.left.total_cmp(&b.left));
-    Ok(tried)
-}
-
 impl Report {
-    /// What the difference comes from, as far as can be told. `ours` is our first state that differs.
-    fn judge(&self, ours: &Ours, scene: &Scene) -> String {
-        if self.difference.as_ref().and_then(|d| d.largest).is_some_and(|largest| largest <= ROUNDING) {
-            return "this looks like rounding: the same method with its operations in another order"
-                .to_owned();
-        }
-        match self.mistakes.first() {
-            Some(best) if best.left <= EXPLAINS => format!("this is the mistake: {}", best.mistake),
-            Some(best) if best.left <= RESEMBLES => {
-                format!("this is most like the mistake: {}", best.mistake)
-            }
-            _ => suspects(ours.counters, scene),
-        }
-    }
-
     fn text(&self) -> String {
         let mut text = format!("states      {} from frame {}\n", self.states, self.first_frame);
         if let Some(found) = &self.difference {
@@ -275,41 +115,25 @@ impl Report {
             let metres = |value: Option<f64>| value.map_or("no number".to_owned(), |m| format!("{m:.3e} m"));
             let theirs = theirs.map(|value| value.unwrap_or(f64::NAN));
             text += &format!(
-                "parts at    frame {frame}, point ({i}, {j})\n  ours      {ours:?}\n  theirs    {theirs:?}\n\
+                "parts at    frame {frame}, column {i}, row {j}\n  ours      {ours:?}\n  theirs    {theirs:?}\n\
                  distance    {}, the largest there {}, in the last frame {}\n",
                 metres(found.distance),
                 metres(found.largest),
                 metres(found.largest_at_the_end),
             );
-            for Tried { mistake, left } in self.mistakes.iter().take(3) {
-                text += &format!("tried       leaves {left:.1e} of the difference: {mistake}\n");
-            }
+            let helps = self.mistakes.iter().filter(|tried| tried.left < 0.9);
+            text += &helps.take(3).map(Tried::line).collect::<String>();
         }
         text + &format!("verdict     {}\n", self.verdict)
     }
-}
 
-/// What no run can tell apart, but acted before the positions parted.
-fn suspects(counters: Counters, scene: &Scene) -> String {
-    let self_collision =
-        "self-collision (boxes told apart by a rounded hash, or cut towards zero; order of points)";
-    let planes = "collision with planes (the offset of 0.0001 m, its side, friction)";
-    let spheres = "collision with spheres (friction, points at the centre)";
-    let limit = "the stretch limit (its order, pinned ends)";
-    let touched = counters.object_moves > 0;
-    let acted = [
-        (counters.self_collision_moves > 0, self_collision),
-        (touched && !scene.planes.is_empty(), planes),
-        (touched && !scene.spheres.is_empty(), spheres),
-        (counters.springs_limited > 0, limit),
-    ];
-    let names: Vec<&str> = acted.iter().filter(|(acted, _)| *acted).map(|(_, name)| *name).collect();
-    if names.is_empty() {
-        return "none of the mistakes that can be run; no collision and no limit had acted yet, so look at the \
-                start, the forces and Verlet's step"
-            .to_owned();
+    /// The exit code's error.
+    fn result(&self) -> Result<()> {
+        let Some(Difference { frame, .. }) = self.difference else { return Ok(()) };
+        let beyond = if self.tolerance > 0.0 { "differ by more than the tolerance" } else { "are not equal" };
+        let message = format!("the positions {beyond} from frame {frame} on");
+        Err(Error::new(Kind::Difference, message).with_help("--tolerance 1e-6 lets rounding pass"))
     }
-    format!("none of the mistakes that can be run; up to there acted {}", names.join(", "))
 }
 
 /// Reads a distance that is not negative.

@@ -1,6 +1,6 @@
 //! `drape export`: the simulated cloth as a mesh.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -45,23 +45,19 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
     };
     let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let points = simulation.positions();
     let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
     // The simulation's own numbers, which the drawn mesh rounds.
     let positions: Vec<[f64; 3]> = (0..points.len()).map(|i| points.get(i).into()).collect();
     let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;
     atomic::write(&args.mesh, text.as_bytes())?;
-    wrote(&args.mesh, session);
+    let (frame, time) = (simulation.frame(), simulation.time());
+    let (points, triangles) = (positions.len(), mesh.triangles.len());
+    let mesh = args.mesh.display().to_string();
+    session.ui.note(&format!("{mesh}: {points} points, {triangles} triangles, frame {frame}, {time} s"));
     if session.ui.json {
-        let (frame, time) = (simulation.frame(), simulation.time());
-        let (points, triangles) = (positions.len(), mesh.triangles.len());
-        let mesh = args.mesh.display().to_string();
         session.print_json(&Summary { mesh, frame, time, points, triangles })?;
     }
-    Ok(())
-}
-
-fn wrote(path: &Path, session: &Session) {
-    session.ui.remark(&format!("wrote {}", path.display()));
+    moved.result()
 }

@@ -32,7 +32,7 @@ pub(super) struct Look {
     /// Springs that a wireframe shows, separated by commas (default: those of the cloth)
     #[arg(long, value_name = "KINDS", value_parser = springs)]
     springs: Option<SpringKinds>,
-    /// Take textures from this folder (texture_1.png .. and cube/posx.png ..) instead of the built-in set
+    /// Take all textures from this folder (texture_1.png .. and cube/posx.png ..); it replaces the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }

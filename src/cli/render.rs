@@ -44,6 +44,10 @@ pub(super) struct Args {
     bench: Option<u32>,
 }
 
+/// What is told of a picture that shows the background alone.
+const NOTHING_SEEN: &str = "warning: nothing is seen in the picture: no object is where the camera looks\n  \
+     = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time";
+
 /// What was drawn.
 #[derive(Serialize)]
 struct Summary {
@@ -65,7 +69,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
     let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let options = args.look.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
@@ -73,7 +77,8 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let picture = renderer.draw(simulation.positions(), &options);
     session.signals.check()?;
     args.write(&path, &picture)?;
-    args.finish(&path, &picture, &simulation, session)
+    args.finish(&path, &picture, &simulation, session)?;
+    moved.result()
 }
 
 impl Args {
@@ -128,6 +133,9 @@ impl Args {
         let &Picture { width, height, stats, .. } = picture;
         let (frame, time) = (simulation.frame(), simulation.time());
         session.ui.note(&format!("{}: {width} x {height}, frame {frame}, {time} s", path.display()));
+        if stats.fragments == 0 {
+            session.ui.note(NOTHING_SEEN);
+        }
         if !self.stats && !session.ui.json {
             return Ok(());
         }

@@ -23,7 +23,7 @@ pub(super) struct Changes {
     /// Change the scene by a JSON merge patch (RFC 7396), repeatable; patches come before sets
     #[arg(long = "patch", value_name = "FILE")]
     patches: Vec<PathBuf>,
-    /// Change one value of the scene, such as cloth.ks=500, repeatable
+    /// Change one value of the scene, such as cloth.ks=500, repeatable; quote what has brackets
     #[arg(long = "set", value_name = "PATH=JSON")]
     sets: Vec<String>,
 }
@@ -75,7 +75,7 @@ pub(super) struct Moment {
     /// Frame number; 0 is the start
     #[arg(long, value_name = "N")]
     frame: Option<u64>,
-    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1 if it is not
+    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1, after the results, if it is not
     #[arg(long)]
     until_rest: bool,
     #[command(flatten)]

@@ -100,18 +100,17 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
         table.iter_mut().for_each(|table| table.row(now));
         args.take_hash(now, session, &mut hashes)
     });
-    let elapsed = args.write_failed(table.as_ref(), moved)?;
+    let moved = args.write_failed(table.as_ref(), moved)?;
     args.write_positions(&simulation)?;
     args.write_table(table.as_ref())?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
     if args.bench {
-        session.print_json(&bench(&simulation, springs, elapsed))
-    } else if args.fills_stdout() || (args.hash && !session.ui.json) {
-        Ok(())
-    } else {
+        session.print_json(&bench(&simulation, springs, moved.elapsed))?;
+    } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
         let summary = summary(&simulation, springs, hashes);
-        session.print(&summary, &summary.text())
+        session.print(&summary, &summary.text())?;
     }
+    moved.result()
 }
 
 impl Args {
@@ -149,9 +148,9 @@ impl Args {
         pair.map_or(Ok(()), |(path, table)| atomic::write(path, table.text().as_bytes()))
     }
 
-    /// What came of a run; writes the table of one that blew up or did not come to rest.
+    /// What came of a run; writes the table of one that blew up.
     fn write_failed<T>(&self, table: Option<&Table>, moved: Result<T>) -> Result<T> {
-        if let Err(Error { kind: Kind::Unstable | Kind::Difference, .. }) = moved {
+        if let Err(Error { kind: Kind::Unstable, .. }) = moved {
             // Where the table cannot be written either, the run's own error tells more.
             let _ = self.write_table(table);
         }

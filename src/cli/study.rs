@@ -24,6 +24,9 @@ pub(super) struct Args {
     /// A small matrix, in under two minutes for a cloth of 50 x 50 points
     #[arg(long)]
     quick: bool,
+    /// Only runs with this in their name, and no pictures, repeatable: `k/m 8.33e4`, `BDF2 at 600 steps/s`
+    #[arg(long, value_name = "TEXT")]
+    only: Vec<String>,
     /// Take textures from this folder (texture_1.png .. and cube/posx.png ..) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
@@ -34,6 +37,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     args.scene.load(session)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
     let extent = if args.quick { Extent::quick() } else { Extent::full() };
+    let extent = Extent { only: args.only.clone(), ..extent };
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let folder = args.folder()?;
     let steps = study::steps(&source, &extent)?;

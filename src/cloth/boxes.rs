@@ -21,6 +21,8 @@ const BLOCK: usize = 32;
 pub(crate) struct Boxes {
     /// The points' places along x, y and z.
     axes: [Axis; 3],
+    /// What tells boxes apart instead of their three numbers.
+    hash: Option<fn([i64; 3]) -> i64>,
     /// The box of every point.
     keys: Vec<Key>,
     /// The points by box, and by index within a box.
@@ -45,6 +47,7 @@ impl Boxes {
         let points = x.len();
         let mut boxes = Self {
             axes: [Axis::new(sx, points)?, Axis::new(sy, points)?, Axis::new(sz, points)?],
+            hash: None,
             keys: filled(points, Key::default())?,
             order: filled(points, 0)?,
             shared: filled(points / 2, 0..0)?,
@@ -52,12 +55,23 @@ impl Boxes {
             is_changed: filled(points, false)?,
             next_order: filled(points, 0)?,
         };
-        boxes.order.clear();
-        boxes.changed.clear();
-        (0..points).for_each(|p| boxes.place(p, x));
-        boxes.changed.extend(0..points);
-        boxes.reorder();
+        boxes.sort(x);
         Ok(boxes)
+    }
+
+    /// Makes boxes one whose numbers have the same `hash`; the points are at `x`.
+    pub(crate) fn tell_apart_by(&mut self, hash: fn([i64; 3]) -> i64, x: &Points) {
+        self.hash = Some(hash);
+        self.sort(x);
+    }
+
+    /// Sorts all points at `x` into boxes.
+    fn sort(&mut self, x: &Points) {
+        self.order.clear();
+        self.changed.clear();
+        (0..x.len()).for_each(|p| self.place(p, x));
+        self.changed.extend(0..x.len());
+        self.reorder();
     }
 
     /// All points, by box and by index within a box.
@@ -116,7 +130,8 @@ impl Boxes {
     /// Finds the box of point `p` at `x`.
     fn place(&mut self, p: usize, x: &Points) {
         let [ax, ay, az] = &mut self.axes;
-        self.keys[p] = (ax.place(p, x.x[p]), ay.place(p, x.y[p]), az.place(p, x.z[p]));
+        let (i, j, k) = (ax.place(p, x.x[p]), ay.place(p, x.y[p]), az.place(p, x.z[p]));
+        self.keys[p] = self.hash.map_or((i, j, k), |hash| (hash([i, j, k]), 0, 0));
     }
 
     /// Merges the points that changed their box into the rest of the order.

@@ -13,20 +13,26 @@ pub(crate) const SURFACE_OFFSET: f64 = 1e-4;
 pub(crate) struct Objects {
     planes: Vec<Plane>,
     spheres: Vec<Sphere>,
+    /// Height above a plane at which a point is put back, in metres.
+    pub(crate) plane_offset: f64,
 }
 
 impl Objects {
     /// The objects of `scene`. The planes' normals become unit vectors.
     pub(crate) fn new(scene: &Scene) -> Self {
         let unit = |plane: &Plane| Plane { normal: plane.normal / len(plane.normal), ..plane.clone() };
-        Self { planes: scene.planes.iter().map(unit).collect(), spheres: scene.spheres.clone() }
+        Self {
+            planes: scene.planes.iter().map(unit).collect(),
+            spheres: scene.spheres.clone(),
+            plane_offset: SURFACE_OFFSET,
+        }
     }
 
     /// Resolves the contacts of every unpinned point with the planes. A point's contacts depend
     /// on that point alone, so all planes may come before all spheres.
     pub(crate) fn collide_planes(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
         for plane in &self.planes {
-            collide(x, last, pins, counters, |x, last| hit_plane(x, last, plane));
+            collide(x, last, pins, counters, |x, last| hit_plane(x, last, plane, self.plane_offset));
         }
     }
 
@@ -62,7 +68,7 @@ fn collide(
 }
 
 /// Where a point that moved from `last` to `x` ends after it met `plane` (unit normal), if it did.
-fn hit_plane(x: Vec3, last: Vec3, plane: &Plane) -> Option<Vec3> {
+fn hit_plane(x: Vec3, last: Vec3, plane: &Plane, offset: f64) -> Option<Vec3> {
     let dir = x - last;
     let den = dot(dir, plane.normal);
     if den == 0.0 {
@@ -73,7 +79,7 @@ fn hit_plane(x: Vec3, last: Vec3, plane: &Plane) -> Option<Vec3> {
     if !(0.0..=1.0).contains(&s) {
         return None;
     }
-    let offset = if side >= 0.0 { SURFACE_OFFSET } else { -SURFACE_OFFSET };
+    let offset = if side >= 0.0 { offset } else { -offset };
     let target = last + dir * s + plane.normal * offset;
     Some(last + (target - last) * (1.0 - plane.friction))
 }

@@ -26,7 +26,7 @@ pub(crate) struct SelfCollision {
     /// Steps per frame.
     steps_per_frame: f64,
     /// The points by box.
-    boxes: Boxes,
+    pub(crate) boxes: Boxes,
     /// The positions of one box's members.
     positions: Points,
 }

@@ -65,10 +65,7 @@ impl Stability {
         Ok(Self {
             mass,
             dt,
-            limit: match sim.damping {
-                Damping::PerStep => (4.0 - 2.0 * cloth.damping / 100.0).sqrt(),
-                Damping::PerSecond => 2.0,
-            },
+            limit: limit(cloth, sim),
             omega_rest: (rest_eigenvalue(cloth)? / mass).sqrt(),
             omega_safe: (safe_eigenvalue(cloth) / mass).sqrt(),
             fps: sim.fps,
@@ -88,6 +85,20 @@ impl Stability {
     /// The fewest steps per frame at which a vibration of `omega` rad/s is stable.
     pub fn fewest_steps(&self, omega: f64) -> f64 {
         (omega / (self.fps * self.limit)).floor() + 1.0
+    }
+}
+
+/// As [`Stability::is_always_stable`], without the work that the cloth at rest takes.
+pub fn is_always_stable(cloth: &Cloth, sim: &Sim) -> bool {
+    let Constants { mass, dt, .. } = Constants::new(cloth, sim);
+    dt * (safe_eigenvalue(cloth) / mass).sqrt() < limit(cloth, sim)
+}
+
+/// The largest `dt ω` that is still stable.
+fn limit(cloth: &Cloth, sim: &Sim) -> f64 {
+    match sim.damping {
+        Damping::PerStep => (4.0 - 2.0 * cloth.damping / 100.0).sqrt(),
+        Damping::PerSecond => 2.0,
     }
 }
 

@@ -31,9 +31,10 @@ figure{margin:0}.row>figure{max-width:32.2rem}.row>div{flex:1 1 19rem;min-width:
 .note{border-left:4px solid var(--b);padding-left:.7rem}dl{margin:.5rem 0}dt{font-weight:600}dd{margin:0 0 .5rem}\
 nav a{margin-right:.6rem;display:inline-block}pre{white-space:pre-wrap}</style>\n";
 
-const TEXT: &str = "<p>Every figure of the report, made by one program from the scenes that are built into it. \
+const TEXT: &str = "<p>Every figure of the report (a write-up of the course project ClothSim), made by one program from the scenes that are built into it. \
 The command under a picture makes that picture alone, in the program's source folder, with the same bytes. \
-Pictures are shown at half their size; a click opens the whole one.</p>\n\
+Pictures are shown at half their size; a click opens the whole one. Where a figure came from a fault, \
+the stable or true picture stands beside it.</p>\n\
 <p><b>Stability</b> is the step times the highest angular frequency of the springs, against the largest value that \
 Verlet's scheme stands. <b>Energy</b> is the ledger: what each phase of the method put into the cloth (+) or \
 took out of it (−) from the start to the picture. The exchange of motion and height by gravity, and of motion \

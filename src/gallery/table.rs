@@ -35,7 +35,7 @@ pub struct Picture {
     pub caption: String,
     /// The stock scene: a file in `scenes/` without the ending.
     pub scene: String,
-    /// Further arguments of `render`, none of which a shell would change.
+    /// Further arguments of `render`, none of which holds a space.
     pub arguments: String,
 }
 
@@ -47,10 +47,17 @@ impl Figure {
 }
 
 impl Picture {
-    /// The command that makes this picture alone, in the repository's folder.
-    pub fn command(&self) -> String {
+    /// The words of the command that makes this picture alone, in the repository's folder.
+    pub fn words(&self) -> Vec<String> {
         let Self { name, scene, arguments, .. } = self;
-        format!("drape render scenes/{scene}.json {name}.png {arguments}")
+        let command = format!("drape render scenes/{scene}.json {name}.png {arguments}");
+        command.split_whitespace().map(str::to_owned).collect()
+    }
+
+    /// The command for a shell. Brackets are quoted, since some shells take them for file names.
+    pub fn command(&self) -> String {
+        let quoted = |word: String| if word.contains('[') { format!("'{word}'") } else { word };
+        self.words().into_iter().map(quoted).collect::<Vec<_>>().join(" ")
     }
 }
 
@@ -92,8 +99,12 @@ mod tests {
     fn a_shell_leaves_every_command_as_it_is() {
         for picture in parts().unwrap().iter().flat_map(|part| &part.figures).flat_map(|f| &f.pictures) {
             let command = picture.command();
-            let plain = |c: char| c.is_ascii_alphanumeric() || " ./-_=[],+".contains(c);
-            assert!(command.chars().all(plain), "{command}");
+            let plain = |c: char| c.is_ascii_alphanumeric() || " ./-_=,+".contains(c);
+            let (bare, quoted): (Vec<_>, Vec<_>) =
+                command.split('\'').enumerate().partition(|(place, _)| place % 2 == 0);
+            assert!(bare.iter().all(|(_, text)| text.chars().all(plain)), "{command}");
+            assert!(quoted.iter().all(|(_, text)| text.contains('[') && !text.contains(' ')), "{command}");
+            assert_eq!(command.replace('\'', ""), picture.words().join(" "));
         }
     }
 }

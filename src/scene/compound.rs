@@ -27,6 +27,10 @@ impl Rule for Vector {
         list(3, &Number(self.0).schema())
     }
 
+    fn json(&self, value: &Vec3) -> Value {
+        value.iter().map(|number| Number(self.0).json(number)).collect()
+    }
+
     fn stand_in(&self) -> Vec3 {
         Vec3::zeros()
     }
@@ -57,6 +61,10 @@ impl Rule for Direction {
         schema
     }
 
+    fn json(&self, value: &Vec3) -> Value {
+        Vector(self.0).json(value)
+    }
+
     fn stand_in(&self) -> Vec3 {
         Vec3::zeros()
     }
@@ -83,6 +91,10 @@ impl Rule for Counts {
     fn schema(&self) -> Value {
         let counts = self.0.map(|count| count.schema());
         json!({ "type": "array", "prefixItems": counts, "minItems": 2, "maxItems": 2 })
+    }
+
+    fn json(&self, value: &[u32; 2]) -> Value {
+        json!(value)
     }
 
     fn stand_in(&self) -> [u32; 2] {
@@ -112,6 +124,10 @@ impl Rule for GridPoints {
     fn schema(&self) -> Value {
         let points = list(2, &json!({ "type": "integer", "minimum": 0 }));
         json!({ "type": "array", "items": points, "uniqueItems": true })
+    }
+
+    fn json(&self, value: &Vec<[i64; 2]>) -> Value {
+        json!(value)
     }
 
     fn stand_in(&self) -> Vec<[i64; 2]> {
@@ -150,6 +166,10 @@ impl<R: Rule> Rule for OrNull<R> {
 
     fn schema(&self) -> Value {
         json!({ "anyOf": [self.0.schema(), { "type": "null" }] })
+    }
+
+    fn json(&self, value: &Option<R::Value>) -> Value {
+        value.as_ref().map_or(Value::Null, |value| self.0.json(value))
     }
 
     fn stand_in(&self) -> Option<R::Value> {

@@ -1,4 +1,5 @@
-//! Every key of a scene file: one line each, with its default and what it must be.
+//! Every key of a scene file: one line each, with its default and what it must be. What it means
+//! stands in `meanings.rs`.
 
 use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
@@ -12,9 +13,10 @@ use super::{
 };
 
 /// The sample counts of `render.samples`.
-const SAMPLES: &[(i64, u32)] = &[(1, 1), (4, 4), (8, 8), (16, 16)];
+const SAMPLES: &[(i64, &str, u32)] = &[(1, "", 1), (4, "", 4), (8, "", 8), (16, "", 16)];
 /// The codes of `cloth.orientation`.
-const ORIENTATIONS: &[(i64, Orientation)] = &[(0, Orientation::Horizontal), (1, Orientation::Vertical)];
+const ORIENTATIONS: &[(i64, &str, Orientation)] =
+    &[(0, "horizontal", Orientation::Horizontal), (1, "vertical", Orientation::Vertical)];
 /// Most points along one side of a cloth; `checks.rs` limits their product.
 const SIDE: Count = Count(2, 1 << 21);
 /// Latitude and longitude counts whose triangles can still be numbered in 24 bits.

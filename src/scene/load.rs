@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::checks::Checks;
 use super::format::{Node, parse};
+use super::nearest::nearest;
 use super::report::{Finding, Report};
 use super::source::Span;
 use super::{Scene, fields, patch, reader, stock};
@@ -108,10 +109,25 @@ fn validate(report: &mut Report, document: &Node) -> Option<Scene> {
 /// The bytes of a file, at most one more than allowed.
 fn read(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes))
-        .map_err(|e| Error::new(Kind::Io, format!("cannot read {}: {e}", path.display())))?;
+    File::open(path).and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes)).map_err(|e| {
+        let error = Error::new(Kind::Io, format!("cannot read {}: {e}", path.display()));
+        error.with_help(neighbor(path).unwrap_or_default())
+    })?;
     Ok(bytes)
+}
+
+/// "did you mean `scenes/sphere.json`?" if that is not there and a file with nearly that name is.
+fn neighbor(path: &Path) -> Option<String> {
+    if path.exists() {
+        return None;
+    }
+    let folder = path.parent()?;
+    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = listed.read_dir().ok()?.flatten();
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort_unstable();
+    let near = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    Some(format!("did you mean `{}`?", folder.join(near).display()))
 }
 
 /// The JSON value of a file's bytes; nothing, after a report, if they are not JSON in UTF-8.

@@ -10,6 +10,7 @@ mod compound;
 mod fields;
 mod format;
 mod load;
+mod meanings;
 mod names;
 mod nearest;
 mod patch;

@@ -7,7 +7,7 @@ pub(super) fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>)
 
 /// The known name with the fewest typing mistakes between, letter case aside: at most one mistake
 /// for every four letters, and none in names shorter than three.
-fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     const LONGEST: usize = 64;
     let name = name.to_lowercase();
     let letters = name.chars().count();

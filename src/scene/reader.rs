@@ -1,12 +1,13 @@
 //! Reads the keys of an object by rules, and reports keys that are missing or unknown.
 
 use super::format::{Json, Member, Node};
+use super::meanings::objects_with;
 use super::nearest::did_you_mean;
 use super::report::{Finding, Report};
 use super::rule::{At, Rule};
 use super::schema::{Key, Shape};
 use super::source::Span;
-use super::words::{join, quoted, shown};
+use super::words::{alternatives, join, quoted, shown};
 
 /// An object of a scene file while its keys are read.
 pub(super) struct Object<'a> {
@@ -39,7 +40,7 @@ fn object<T>(report: &mut Report, path: &str, node: &Node, read: impl FnOnce(&mu
 impl Object<'_> {
     /// The value of a key that must be given.
     pub(super) fn required<R: Rule>(&mut self, name: &'static str, rule: R) -> R::Value {
-        self.note(name, true, || Shape::Value(rule.schema()));
+        self.note(name, true, || Shape::value(&rule, None));
         match self.find(name) {
             Some(node) => self.read(name, node, &rule),
             None => {
@@ -51,7 +52,7 @@ impl Object<'_> {
 
     /// The value of a key that may be left out.
     pub(super) fn optional<R: Rule>(&mut self, name: &'static str, default: R::Value, rule: R) -> R::Value {
-        self.note(name, false, || Shape::Value(rule.schema()));
+        self.note(name, false, || Shape::value(&rule, Some(&default)));
         match self.find(name) {
             Some(node) => self.read(name, node, &rule),
             None => default,
@@ -135,13 +136,26 @@ impl Object<'_> {
             }
             let path = self.join(&shown(&member.key));
             let listed = || format!("the keys here are {}", self.known.join(", "));
-            let help = did_you_mean(&member.key, self.known.iter().copied()).unwrap_or_else(listed);
+            let help = did_you_mean(&member.key, self.known.iter().copied())
+                .or_else(|| self.elsewhere(&member.key))
+                .unwrap_or_else(listed);
             let finding = Finding::new("scene::unknown_key", format!("unknown key `{path}`"))
                 .at(member.key_span, "not a key of this object")
                 .key(path)
                 .help(help);
             self.report.error(finding);
         }
+    }
+
+    /// "did you mean `material.shader`?" if other objects have a key of that name. An object that may
+    /// stand in this one is meant there.
+    fn elsewhere(&self, name: &str) -> Option<String> {
+        let place = |object: &str| {
+            let path = if self.known.contains(&object) { self.join(object) } else { object.into() };
+            format!("`{}`", join(&path, name))
+        };
+        let places = alternatives(objects_with(name).map(place));
+        (!places.is_empty()).then(|| format!("did you mean {places}?"))
     }
 }
 

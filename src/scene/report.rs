@@ -61,11 +61,14 @@ impl Finding {
     }
 }
 
+/// The number of a source and a byte in it; what has no place comes last.
+type Place = (usize, usize);
+
 /// The sources of a scene and everything found in them.
 #[derive(Default)]
 pub(super) struct Report {
     pub(super) sources: Vec<Source>,
-    errors: Vec<Diagnostic>,
+    errors: Vec<(Place, Diagnostic)>,
     warnings: Vec<Diagnostic>,
     /// Every key that the reader knows, if they are asked for instead of a scene.
     pub(super) keys: Option<Vec<Key>>,
@@ -89,13 +92,16 @@ impl Report {
         if self.is_full() {
             return;
         }
-        let diagnostic = self.diagnostic(&finding, render::Severity::Error);
-        self.errors.push(diagnostic);
+        self.push(&finding);
         if self.is_full() {
-            let more = Finding::new("scene::more", format!("stopped after {MOST_ERRORS} errors"));
-            let diagnostic = self.diagnostic(&more, render::Severity::Error);
-            self.errors.push(diagnostic);
+            self.push(&Finding::new("scene::more", format!("stopped after {MOST_ERRORS} errors")));
         }
+    }
+
+    fn push(&mut self, finding: &Finding) {
+        let place = finding.place.map_or((usize::MAX, 0), |span| (span.source, span.start));
+        let diagnostic = self.diagnostic(finding, render::Severity::Error);
+        self.errors.push((place, diagnostic));
     }
 
     /// Whether there are so many errors that looking for more makes no sense.
@@ -114,12 +120,16 @@ impl Report {
         let inside = |found: &str| {
             found.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
-        !self.errors.iter().any(|e| inside(&e.key))
+        !self.errors.iter().any(|(_, e)| inside(&e.key))
     }
 
-    /// The warnings if there was no error, else all errors as one.
-    pub(super) fn finish(self) -> Result<Vec<Diagnostic>, Error> {
-        if self.errors.is_empty() { Ok(self.warnings) } else { Err(Error::scene(self.errors)) }
+    /// The warnings if there was no error, else all errors as one, in the order of their places.
+    pub(super) fn finish(mut self) -> Result<Vec<Diagnostic>, Error> {
+        if self.errors.is_empty() {
+            return Ok(self.warnings);
+        }
+        self.errors.sort_by_key(|(place, _)| *place);
+        Err(Error::scene(self.errors.into_iter().map(|(_, error)| error).collect()))
     }
 
     fn diagnostic(&self, finding: &Finding, severity: render::Severity) -> Diagnostic {

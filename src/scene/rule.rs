@@ -23,6 +23,8 @@ pub(super) trait Rule {
     fn read(&self, at: &mut At) -> Option<Self::Value>;
     /// The same as a JSON schema; it may let pass what only the check of the whole scene refuses.
     fn schema(&self) -> Value;
+    /// The value as a scene file writes it.
+    fn json(&self, value: &Self::Value) -> Value;
     /// Stands in for a value that is wrong or missing, in a scene that is thrown away.
     fn stand_in(&self) -> Self::Value;
 }

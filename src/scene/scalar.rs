@@ -28,7 +28,11 @@ impl Rule for Number {
     }
 
     fn schema(&self) -> Value {
-        json!({ "type": "number", "minimum": self.0.min, "maximum": self.0.max, "description": self.words() })
+        json!({ "type": "number", "minimum": self.0.min, "maximum": self.0.max })
+    }
+
+    fn json(&self, value: &f64) -> Value {
+        whole(*value).map_or_else(|| json!(value), |whole| json!(whole))
     }
 
     fn stand_in(&self) -> f64 {
@@ -57,6 +61,10 @@ impl Rule for Count {
 
     fn schema(&self) -> Value {
         json!({ "type": "integer", "minimum": self.0, "maximum": self.1 })
+    }
+
+    fn json(&self, value: &u32) -> Value {
+        json!(value)
     }
 
     fn stand_in(&self) -> u32 {
@@ -93,6 +101,10 @@ impl Rule for Flag {
         json!({ "type": "boolean" })
     }
 
+    fn json(&self, value: &bool) -> Value {
+        json!(value)
+    }
+
     fn stand_in(&self) -> bool {
         false
     }
@@ -102,7 +114,7 @@ impl Rule for Flag {
 #[derive(Clone, Copy)]
 pub(super) struct Choice<T: 'static>(pub(super) &'static [(&'static str, T)]);
 
-impl<T: Copy> Rule for Choice<T> {
+impl<T: Copy + PartialEq> Rule for Choice<T> {
     type Value = T;
 
     fn words(&self) -> String {
@@ -123,37 +135,48 @@ impl<T: Copy> Rule for Choice<T> {
         json!({ "enum": names })
     }
 
+    fn json(&self, value: &T) -> Value {
+        json!(self.0.iter().find(|(_, known)| known == value).map(|(name, _)| name))
+    }
+
     fn stand_in(&self) -> T {
         self.0[0].1
     }
 }
 
-/// One of a few whole numbers.
+/// One of a few whole numbers, each with a word for what it stands for, or none.
 #[derive(Clone, Copy)]
-pub(super) struct Coded<T: 'static>(pub(super) &'static [(i64, T)]);
+pub(super) struct Coded<T: 'static>(pub(super) &'static [(i64, &'static str, T)]);
 
-impl<T: Copy> Rule for Coded<T> {
+impl<T: Copy + PartialEq> Rule for Coded<T> {
     type Value = T;
 
     fn words(&self) -> String {
-        alternatives(self.0.iter().map(|(code, _)| code.to_string()))
+        alternatives(self.0.iter().map(|(code, word, _)| match *word {
+            "" => code.to_string(),
+            word => format!("{code} ({word})"),
+        }))
     }
 
     fn read(&self, at: &mut At) -> Option<T> {
         let Json::Number(value) = at.node.json else {
             return at.wrong_type(&format!("the number {}", self.words()));
         };
-        let known = self.0.iter().find(|(code, _)| whole(value) == Some(*code));
-        known.map(|(_, value)| *value).or_else(|| at.not_allowed("scene::unknown_value", &self.words(), ""))
+        let known = self.0.iter().find(|(code, ..)| whole(value) == Some(*code));
+        known.map(|(.., value)| *value).or_else(|| at.not_allowed("scene::unknown_value", &self.words(), ""))
     }
 
     fn schema(&self) -> Value {
-        let codes: Vec<i64> = self.0.iter().map(|(code, _)| *code).collect();
+        let codes: Vec<i64> = self.0.iter().map(|(code, ..)| *code).collect();
         json!({ "enum": codes })
     }
 
+    fn json(&self, value: &T) -> Value {
+        json!(self.0.iter().find(|(.., known)| known == value).map(|(code, ..)| code))
+    }
+
     fn stand_in(&self) -> T {
-        self.0[0].1
+        self.0[0].2
     }
 }
 
@@ -178,7 +201,11 @@ impl Rule for Name {
     }
 
     fn schema(&self) -> Value {
-        json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$", "description": self.words() })
+        json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" })
+    }
+
+    fn json(&self, value: &String) -> Value {
+        json!(value)
     }
 
     fn stand_in(&self) -> String {

@@ -13,7 +13,7 @@ use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Constants, Counters, Points};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::scene::{Plan, Scene, SelfCollision as Mode, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
@@ -26,9 +26,9 @@ pub(super) struct State {
     pub(super) x: Points,
     pub(super) last: Points,
     pub(super) scheme: Scheme,
-    self_collision: Option<SelfCollision>,
+    pub(super) self_collision: Option<SelfCollision>,
     neighbors: Option<Neighbors>,
-    objects: Option<Objects>,
+    pub(super) objects: Option<Objects>,
     stretch_limit: Option<StretchLimit>,
     outside: Option<Outside>,
     pub(super) recorder: Option<Recorder>,
@@ -39,12 +39,18 @@ pub(super) struct State {
 }
 
 impl State {
-    /// The cloth of `scene` at its start, if there is one.
-    pub(super) fn new(scene: &Scene) -> Result<Option<Self>> {
+    /// The cloth of `scene`, if there is one, at its start or at `start`.
+    pub(super) fn new(scene: &Scene, start: Option<&Points>) -> Result<Option<Self>> {
         let Some(cloth) = &scene.cloth else { return Ok(None) };
         let (sim, plan) = (&scene.sim, Plan::of(scene));
         let grid = Grid::new(cloth)?;
-        let x = grid::start(cloth, grid)?;
+        let mut x = grid::start(cloth, grid)?;
+        if let Some(start) = start {
+            check_size(start, x.len())?;
+            x.copy_from(start);
+        }
+        let mut last = Points::zeros(grid.len())?;
+        last.copy_from(&x);
         let springs = Springs::new(cloth, grid, &x)?;
         let constants = Constants::new(cloth, sim);
         let same_box = plan.self_collision == Mode::SameBox;
@@ -55,7 +61,7 @@ impl State {
             constants,
             grid,
             pins: Pins::new(cloth, grid)?,
-            last: grid::start(cloth, grid)?,
+            last,
             self_collision: when(same_box, || SelfCollision::new(cloth, sim, grid, &x))?,
             neighbors: when(neighbors, || Neighbors::new(cloth, sim, &x))?,
             objects: (plan.planes || plan.spheres).then(|| Objects::new(scene)),
@@ -151,4 +157,12 @@ impl State {
 /// What `make` makes, when the plan asks for it.
 fn when<T>(asked_for: bool, make: impl FnOnce() -> Result<T>) -> Result<Option<T>> {
     asked_for.then(make).transpose()
+}
+
+/// Checks that `x` has `points` positions.
+pub(super) fn check_size(x: &Points, points: usize) -> Result<()> {
+    if [&x.x, &x.y, &x.z].iter().all(|component| component.len() == points) {
+        return Ok(());
+    }
+    Err(Error::new(Kind::Scene, format!("the state is not one of {points} points")))
 }

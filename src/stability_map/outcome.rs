@@ -1,5 +1,6 @@
 //! One run: how a cloth fared.
 
+use crate::cloth::stability::is_always_stable;
 use crate::error::{Kind, Result};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
@@ -55,8 +56,9 @@ pub struct Run {
 /// As [`Simulation::new`]; being unstable is an outcome, not an error.
 pub fn run(scene: &Scene, frames: u64) -> Result<Run> {
     let mut simulation = Simulation::new(scene)?;
-    // Behind a stretch limit only the ledger shows a blow-up (docs/stability.md).
-    simulation.record_ledger()?;
+    if may_hide(scene) {
+        simulation.record_ledger()?;
+    }
     let bound = scene.sim.stretch_limit.map_or(f64::INFINITY, |limit| 1.0 + 2.0 * limit);
     let mut run = Run { outcome: Outcome::Ok, frames: 0, stretch: 0.0 };
     while run.frames < frames {
@@ -74,6 +76,13 @@ pub fn run(scene: &Scene, frames: u64) -> Result<Run> {
         }
     }
     Ok(run)
+}
+
+/// Whether the cloth may blow up behind a stretch limit, where only the ledger shows it
+/// (docs/stability.md).
+fn may_hide(scene: &Scene) -> bool {
+    let may_blow_up = |cloth| !is_always_stable(cloth, &scene.sim);
+    scene.sim.stretch_limit.is_some() && scene.cloth.as_ref().is_some_and(may_blow_up)
 }
 
 /// Whether a position is no number, or beyond what a scene may hold.

@@ -1,6 +1,6 @@
 //! The map as a web page: a panel a density, the thresholds, the extremes.
 
-use super::extremes::{Promise, Row};
+use super::extremes::{FRAMES, Promise, Row};
 use super::outcome::Outcome;
 use super::{Cell, Column, Map};
 use crate::math::{exp, ln};
@@ -18,10 +18,15 @@ fn panels(map: &Map) -> String {
     let columns = map.axes.density.iter().enumerate();
     let plots: String = columns.map(|(i, &density)| panel(map, density, &format!("panel{i}"))).collect();
     format!(
-        "<p>Each rectangle is a run of {} s. The lines are the steps per frame that theory asks for: at rest \
+        "<p>Each rectangle is a run of {} s with the values in its middle, and shows what happened in it: a cloth that \
+         only falls breaks nothing. \
+         The lines are the steps per frame that theory asks for: at rest \
          (ω² = 8 ks/m for the stock lattice), in any configuration (12 ks/m), and by Gershgorin's circles \
-         (17.6 ks/m). Between the first two it depends on how the cloth is deformed. The stretch limit hides a \
-         blow-up from everything but the energy.</p>\n<div class=\"row\">\n{plots}</div>\n",
+         (17.6 ks/m). Between the first two it depends on how the cloth is deformed.</p>\n\
+         <p>The stretch limit takes out in every step what the springs of a cloth that blows up put in: strains, \
+         and often the energy that the cloth holds, stay small. What shows then is the ledger, which counts \
+         what the springs put in; it judges only below the bound of any configuration, for above it they \
+         cannot blow up.</p>\n<div class=\"row\">\n{plots}</div>\n",
         map.axes.time
     )
 }
@@ -50,9 +55,10 @@ fn panel(map: &Map, density: f64, id: &str) -> String {
         for column in map.columns.iter().filter(|column| column.density == density) {
             let tried = if marker == Marker::Disc { column.at_rest } else { column.in_motion };
             let hint = |steps: f64| format!("{name}: {steps:.1} steps a second");
-            tried
-                .into_iter()
-                .for_each(|steps| plot.marker([column.ks, steps / map.fps], style, &hint(steps)));
+            let [bottom, top] = [rows[0], rows[rows.len() - 1]];
+            let shown =
+                tried.map(|steps| (steps, steps / map.fps)).filter(|(_, y)| (bottom..=top).contains(y));
+            shown.into_iter().for_each(|(steps, y)| plot.marker([column.ks, y], style, &hint(steps)));
         }
         plot.entry(style, name);
     }
@@ -79,7 +85,7 @@ fn edges(values: &[f64]) -> Vec<f64> {
 fn color(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ok => "--c",
-        Outcome::Stretch => "--e",
+        Outcome::Stretch => "--a",
         Outcome::Energy => "--b",
         Outcome::Lost => "--f",
     }
@@ -123,7 +129,10 @@ fn thresholds(map: &Map) -> String {
         ["density", "ks", "at rest, theory", "at rest, tried", "ratio", "in motion", "safe", "Gershgorin"];
     format!(
         "<h2>Thresholds</h2>\n<p>The fewest steps a second at which the cloth is stable. Tried: by bisection, at \
-         rest to 0.1 %, in motion over {} s to 1 %. A dash: not found between half the first bound and \
+         rest to 0.1 %, in motion over {} s, or 600 steps if those are longer, to 1 %. In motion there is no edge \
+         to be found behind a stretch limit: the fewer the steps, the more the springs put in, and the figure is \
+         where that passes what the cloth is allowed, at most the safe bound, above which the ledger does not \
+         judge. A dash: not found between half the first bound and \
          twice the safe one.</p>\n{}",
         map.axes.time,
         page::table(&head, Cells::Numbers, map.columns.iter().map(row)),
@@ -142,5 +151,8 @@ fn extremes(rows: &[Row]) -> String {
         vec![escape(row.what), sets.join(" "), promise.to_owned(), escape(&row.happened), kept.to_owned()]
     };
     let head = ["extreme", "set", "promise", "what happened", "kept"];
-    format!("<h2>Extremes</h2>\n{}", page::table(&head, Cells::Text, rows.iter().map(row)))
+    format!(
+        "<h2>Extremes</h2>\n<p>What runs ran for {FRAMES} frames.</p>\n{}",
+        page::table(&head, Cells::Text, rows.iter().map(row))
+    )
 }

@@ -121,6 +121,8 @@ pub struct Extent {
     pub picture_width: u32,
     /// Latitude counts of drawn spheres; longitudes are as many.
     pub resolutions: Vec<u32>,
+    /// Parts of the names of the runs to make, as [`Panel::name`] has them, and no pictures; if none, all.
+    pub only: Vec<String>,
 }
 
 impl Extent {
@@ -136,6 +138,7 @@ impl Extent {
             patience: 6.0,
             picture_width: 512,
             resolutions: vec![16, 40, 128],
+            only: Vec::new(),
         }
     }
 
@@ -151,6 +154,7 @@ impl Extent {
             patience: 1.5,
             picture_width: 256,
             resolutions: vec![16, 128],
+            only: Vec::new(),
         }
     }
 
@@ -171,7 +175,7 @@ pub struct Panel {
     pub stable_rate: f64,
     /// The cells, method by method, in order of their steps.
     pub cells: Vec<Cell>,
-    /// Steps per second of the reference's first run: the most of any cell.
+    /// Steps per second of the reference's first run: the most of any cell, also of those not asked for.
     pub finest: u32,
     /// Changes that make the reference of the scene, but for its steps.
     pub sets: Vec<String>,
@@ -188,16 +192,45 @@ pub struct Cell {
     pub scene: Scene,
 }
 
-/// The panels of `source`; those whose reference would take too long have no cells.
+impl Panel {
+    /// What a cell is called, such as `k/m 8.33e4: BDF2 at 600 steps/s`.
+    pub fn name(&self, cell: &Cell) -> String {
+        format!("k/m {:.2e}: {}", self.k_over_m, run_name(cell.method, cell.rate))
+    }
+}
+
+/// A run in words, such as `BDF2 at 600 steps/s`.
+pub(super) fn run_name(method: usize, rate: u32) -> String {
+    let method = METHODS.get(method).map_or("", |method| method.name);
+    format!("{method} at {rate} steps/s")
+}
+
+/// The panels of `source`; those whose reference would take too long have no cells. Where only some
+/// runs are asked for, panels without any of them are absent.
 ///
 /// # Errors
-/// [`Kind::Nothing`] when the scene has no cloth; otherwise as [`Source::scene`].
+/// [`Kind::Nothing`] when the scene has no cloth, [`Kind::Usage`] when no run is called as asked;
+/// otherwise as [`Source::scene`].
 pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
     let scene = source.scene(&[])?;
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth to be studied"));
     };
-    extent.densities.iter().map(|part| panel(source, &scene, cloth.density * part, extent)).collect()
+    let panels = extent.densities.iter().map(|part| panel(source, &scene, cloth.density * part, extent));
+    let mut panels = panels.collect::<Result<Vec<_>>>()?;
+    if extent.only.is_empty() {
+        return Ok(panels);
+    }
+    for panel in &mut panels {
+        let is_asked = |cell: &Cell| extent.only.iter().any(|part| panel.name(cell).contains(part));
+        panel.cells = panel.cells.iter().filter(|cell| is_asked(cell)).cloned().collect();
+    }
+    panels.retain(|panel| !panel.cells.is_empty());
+    if panels.is_empty() {
+        let error = Error::new(Kind::Usage, format!("no run is called `{}`", extent.only.join("` or `")));
+        return Err(error.with_help("runs are called such as `k/m 8.33e4: BDF2 at 600 steps/s`"));
+    }
+    Ok(panels)
 }
 
 fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Result<Panel> {

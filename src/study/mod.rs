@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::error::Result;
 use crate::texture_source::TextureSource;
 use hull::{Advice, advice, hull};
-use matrix::{Extent, METHODS, Panel, Source, panels};
+use matrix::{Extent, Panel, Source, panels, run_name};
 use pictures::Pictures;
 use reference::{COMPARED, DRAWN, Reference, converge};
 use runs::{Measured, Outcome};
@@ -88,7 +88,10 @@ pub fn run(
         .zip(measured)
         .map(|((panel, reference), cells)| PanelStudy { panel, reference, cells })
         .collect();
-    let pictures = pictures::measure(&source.scene(&[])?, textures, extent, store, watch)?;
+    let pictures = match extent.only.is_empty() {
+        true => pictures::measure(&source.scene(&[])?, textures, extent, store, watch)?,
+        false => None,
+    };
     let left_out = left_out.iter().map(|panel| panel.k_over_m).collect();
     Ok(Study { extent: extent.clone(), panels, left_out, pictures })
 }
@@ -118,18 +121,25 @@ impl PanelStudy {
         self.is_above(cell, moment, DRAWN)
     }
 
+    /// The same for cell number `cell` at the panel's moment.
+    fn is_told(&self, cell: usize) -> bool {
+        self.cells.get(cell).is_some_and(|cell| self.is_compared(cell, self.moment()))
+    }
+
     fn is_above(&self, cell: &Measured, moment: usize, part: f64) -> bool {
         let pair = cell.errors.get(moment).zip(self.reference.floor.get(moment));
         pair.is_some_and(|(error, floor)| error.is_above(floor, part))
     }
 
-    /// Cost and error of each cell at the panel's moment; no number for cells that are not sound or not
-    /// compared.
+    /// Cost and error of each cell at the panel's moment; no number for cells that are not sound or did
+    /// not reach it. The error of a cell that is not compared is the most that it can be: the smallest
+    /// that is.
     pub fn points(&self, cost: Cost) -> Vec<[f64; 2]> {
         let moment = self.moment();
         let point = |cell: &Measured| {
-            let sound = cell.outcome == Outcome::Ok && self.is_compared(cell, moment);
-            let error = cell.errors.get(moment).filter(|_| sound).map_or(f64::NAN, |error| error.rms);
+            let pair = cell.errors.get(moment).zip(self.reference.floor.get(moment));
+            let sound = pair.filter(|_| cell.outcome == Outcome::Ok);
+            let error = sound.map_or(f64::NAN, |(error, floor)| error.rms.max(floor.rms / DRAWN));
             [self.cost(cell, cost), error]
         };
         self.cells.iter().map(point).collect()
@@ -168,9 +178,7 @@ impl PanelStudy {
 
     /// A cell in words, such as `Verlet, report start at 2700 steps/s`.
     pub fn name(&self, cell: usize) -> String {
-        let Some(cell) = self.cells.get(cell) else { return String::new() };
-        let method = METHODS.get(cell.method).map_or("", |method| method.name);
-        format!("{method} at {} steps/s", cell.rate)
+        self.cells.get(cell).map_or_else(String::new, |cell| run_name(cell.method, cell.rate))
     }
 }
 

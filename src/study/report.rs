@@ -15,7 +15,7 @@ use crate::output::png::{self, Effort, Pixels};
 /// large as their text is meant to be read.
 const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
 .plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}th,td.name{white-space:normal}\
-.advice th:nth-child(2),.advice td:nth-child(2){white-space:normal;text-align:left;min-width:9rem}</style>\n";
+.worded th:nth-child(2),.worded td:nth-child(2){white-space:normal;text-align:left;min-width:9rem}</style>\n";
 
 /// The page of `study` of the scene called `scene`.
 ///
@@ -27,11 +27,11 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
     text += "<h2>If you can pay this, use that</h2>\n<p>Paid is wall time: per simulated second, and per picture.</p>\n";
     for panel in &study.panels {
         text +=
-            &format!("<h3>{}</h3>\n<div class=\"advice\">{}</div>\n", heading(panel), tables::advice(panel));
+            &format!("<h3>{}</h3>\n<div class=\"worded\">{}</div>\n", heading(panel), tables::advice(panel));
     }
     if let Some(pictures) = &study.pictures {
         text +=
-            &format!("<h3>Pictures</h3>\n<div class=\"advice\">{}</div>\n", tables::picture_advice(pictures));
+            &format!("<h3>Pictures</h3>\n<div class=\"worded\">{}</div>\n", tables::picture_advice(pictures));
     }
     for (number, panel) in study.panels.iter().enumerate() {
         text += &section(study, panel, number);
@@ -41,6 +41,7 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
     }
     text += &match &study.pictures {
         Some(pictures) => picture_section(pictures)?,
+        None if !study.extent.only.is_empty() => String::new(),
         None => "<p>No pictures: lines are one pixel wide at every size, so a wireframe has no converged \
                  picture; and a cloth that is lost cannot be drawn.</p>\n"
             .to_owned(),
@@ -56,11 +57,16 @@ fn introduction(study: &Study) -> String {
          it costs. Up: how far its points are from where they should be, as the root of the mean squared \
          distance. The reference is the model itself (damping per second, no stretch limit, no \
          self-collision) with so many steps that halving them changes less than the grey floor; errors are \
-         taken at {} s, and drawn from ten times the floor on. Times were measured one run after \
+         taken at {} s, and told from ten times the floor on; a smaller one counts as that. Times were measured one run after \
          the other on this machine, each the median of up to {} that were interleaved; springs visited are \
-         counted and the same on every machine.",
+         counted and the same on every machine.{}",
         times.join(", "),
         study.extent.repeats,
+        match study.extent.only.is_empty() {
+            true => String::new(),
+            false =>
+                format!(" Only runs were made that are called {}.", escape(&study.extent.only.join(" or "))),
+        },
     )
 }
 
@@ -82,13 +88,15 @@ fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
     let [coarse, fine] = panel.reference.rates;
     format!(
         "<h2>{}</h2>\n<div class=\"plots\">\n{}</div>\n\
-         <p>Pareto hull (no other point is both cheaper and more accurate), by time: {by_time}. \
-         By springs visited: {by_count}.</p>\n\
-         <p class=\"soft\">Hollow: finite, but the cloth gained energy out of nothing. Crosses on the top edge: \
-         lost (no number any more). Given up and not drawn: what \
-         visited more than {:.0e} springs. Grey: not told from the reference, which is Verlet with the half-step \
+         <p><strong>Pareto hull</strong>: no other point is both cheaper and more accurate.</p>\n\
+         <ul><li>By time: {by_time}.</li>\n<li>By springs visited: {by_count}.</li></ul>\n\
+         <p class=\"soft\">Hollow: the cloth holds more energy than the reference at some moment, by over 1 % of \
+         what the fall released: it gained it out of nothing, or its model took less out (damping per step, \
+         stretch limit). Crosses on the top edge: \
+         lost (no number any more). Not drawn: what was given up before this moment, after \
+         {:.0e} springs, or twice as many before the first moment. Grey: not told from the reference, which is Verlet with the half-step \
          start at {fine} steps/s; the floor is its distance from {coarse} steps/s.</p>\n\
-         <details><summary>All {} runs</summary>\n{}</details>\n",
+         <details><summary>All {} runs</summary>\n<div class=\"worded\">{}</div></details>\n",
         heading(panel),
         plots.concat(),
         study.extent.most_springs,

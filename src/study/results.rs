@@ -82,6 +82,8 @@ struct Choice {
     choice: String,
     cost: f64,
     error: f64,
+    /// Whether the error may be smaller: it cannot be told from that of the reference.
+    at_most: bool,
 }
 
 impl<'a> Results<'a> {
@@ -108,7 +110,7 @@ impl<'a> Results<'a> {
                     floor: pictures.floor,
                     ways: pictures.drawn.iter().map(WayResults::new).collect(),
                     hull: hull(&points).into_iter().map(name).collect(),
-                    advice: choices(&advice(&points), &points, name),
+                    advice: choices(&advice(&points), &points, |i| (name(i), false)),
                 }
             }),
         }
@@ -134,16 +136,18 @@ impl<'a> Results<'a> {
 
 fn lines(choices: &[Choice], cost: &str, error: &str) -> String {
     let line = |choice: &Choice| {
-        let Choice { budget, choice, cost: paid, error: wrong } = choice;
-        format!("  for {budget} {cost}: {choice}: {wrong:.2e} {error} ({paid:.3} {cost})\n")
+        let Choice { budget, choice, cost: paid, error: wrong, at_most } = choice;
+        let at_most = if *at_most { "at most " } else { "" };
+        format!("  for {budget} {cost}: {choice}: {at_most}{wrong:.2e} {error} ({paid:.3} {cost})\n")
     };
     choices.iter().map(line).collect()
 }
 
-fn choices(advice: &[Advice], points: &[[f64; 2]], name: impl Fn(usize) -> String) -> Vec<Choice> {
+fn choices(advice: &[Advice], points: &[[f64; 2]], of: impl Fn(usize) -> (String, bool)) -> Vec<Choice> {
     let choice = |&Advice { budget, use_point }: &Advice| {
         let [cost, error] = points[use_point];
-        Choice { budget, choice: name(use_point), cost, error }
+        let (choice, at_most) = of(use_point);
+        Choice { budget, choice, cost, error, at_most }
     };
     advice.iter().map(choice).collect()
 }
@@ -162,7 +166,7 @@ impl PanelStudy {
             cells: cells.iter().enumerate().map(|(i, cell)| self.cell_results(i, cell)).collect(),
             hull: named(self.hull(Cost::Wall)),
             hull_counted: named(self.hull(Cost::Springs)),
-            advice: choices(&self.advice(), &self.points(Cost::Wall), |i| self.name(i)),
+            advice: choices(&self.advice(), &self.points(Cost::Wall), |i| (self.name(i), !self.is_told(i))),
         }
     }
 

@@ -12,10 +12,13 @@ use crate::simulation::Simulation;
 /// Most steps between two looks at what was spent.
 const PATIENCE: u32 = 10;
 
+/// How many times as much may be spent to reach the first moment: a run that ends before it tells nothing.
+const FIRST: f64 = 2.0;
+
 /// What a run gave.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trajectory {
-    /// The moments; those after the cloth was lost are absent.
+    /// The moments; those after the cloth was lost or the run given up are absent.
     pub moments: Vec<Moment>,
     /// Springs that were visited, to compute a force or to limit a stretch, per simulated second.
     pub springs: f64,
@@ -45,8 +48,8 @@ pub struct Moment {
 pub struct Limits<'a> {
     /// When it is looked at, in tenths of a second, ascending.
     pub tenths: &'a [u32],
-    /// After how many springs, about, it is given up: how many an implicit step visits is not known
-    /// before it is made.
+    /// After how many springs, about, it is given up, or twice as many before the first moment: how
+    /// many an implicit step visits is not known before it is made.
     pub most_springs: f64,
 }
 
@@ -61,15 +64,16 @@ pub fn run(
     limits: Limits<'_>,
     watch: &dyn Fn(u32) -> Result<()>,
 ) -> Result<Trajectory> {
-    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, limits, watch };
+    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, watch };
     run.simulation.allow_unstable();
     let mut probe = Probe::new(scene)?;
     let (mut moments, mut given_up, mut done) = (Vec::new(), false, 0);
     for &tenth in limits.tenths {
         let steps = rate / 10 * tenth - done;
-        let in_time = run.advance(steps - 1)?;
+        let most = limits.most_springs * if done == 0 { FIRST } else { 1.0 };
+        let in_time = run.advance(steps - 1, most)?;
         let before = run.simulation.positions().clone();
-        given_up = !(in_time && run.advance(1)?);
+        given_up = !(in_time && run.advance(1, most)?);
         if given_up {
             break;
         }
@@ -95,16 +99,15 @@ fn springs(simulation: &Simulation) -> f64 {
 struct Run<'a> {
     simulation: Simulation,
     elapsed: Duration,
-    limits: Limits<'a>,
     watch: &'a dyn Fn(u32) -> Result<()>,
 }
 
 impl Run<'_> {
-    /// Makes `steps` steps; whether it did not become too dear before.
-    fn advance(&mut self, steps: u32) -> Result<bool> {
+    /// Makes `steps` steps; whether no more than `most` springs were visited before the last of them.
+    fn advance(&mut self, steps: u32, most: f64) -> Result<bool> {
         let mut left = steps;
         while left > 0 {
-            if springs(&self.simulation) > self.limits.most_springs {
+            if springs(&self.simulation) > most {
                 return Ok(false);
             }
             let some = left.min(PATIENCE);

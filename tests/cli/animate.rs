@@ -92,6 +92,8 @@ fn an_animated_png_shows_the_nearest_frames_in_real_time() {
 fn a_gif_shows_them_too_with_times_that_do_not_drift() {
     let scratch = Scratch::new();
     animate(&scratch, "a.gif", &["--frames", "0..18", "--fps", "30"]);
+    animate(&scratch, "b.gif", &["--time", "0.2", "--fps", "30"]);
+    assert_eq!(scratch.read("a.gif"), scratch.read("b.gif"), "0.2 s are 18 frames");
     let (pictures, delays) = read_gif(&scratch.path("a.gif"));
     assert!(pictures == rendered(&scratch, &[0, 3, 6, 9, 12, 15]), "other pictures");
     assert_eq!(delays, [3, 4, 3, 3, 4, 3]);

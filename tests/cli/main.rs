@@ -2,6 +2,7 @@
 //! can read, and no file left behind by a failure.
 
 mod animate;
+mod disk;
 mod errors;
 mod files;
 #[path = "../naive/mod.rs"]
@@ -10,5 +11,6 @@ mod positions;
 mod results;
 mod scratch;
 mod signals;
+mod simulating;
 mod texts;
 mod threads;

@@ -22,9 +22,18 @@ pub(crate) struct GlPicture {
 
 /// The driver with what was given to it so far.
 pub(crate) struct Device<'a> {
-    gl: &'a glow::Context,
+    pub(crate) gl: &'a glow::Context,
     programs: Vec<(Shader, Programs)>,
     textures: Vec<(String, glow::Texture, [f32; 2])>,
+}
+
+/// An object's vertices and program in the driver.
+pub(crate) struct Uploaded {
+    program: glow::Program,
+    vertex_array: glow::VertexArray,
+    buffers: Vec<glow::Buffer>,
+    mode: u32,
+    count: i32,
 }
 
 impl<'a> Device<'a> {
@@ -64,7 +73,7 @@ impl<'a> Device<'a> {
     }
 
     /// Compiles the programs and uploads the textures of an object, if that was not done before.
-    fn prepare(&mut self, object: &Object<'_>) {
+    pub(crate) fn prepare(&mut self, object: &Object<'_>) {
         let material = object.material;
         if !self.programs.iter().any(|(shader, _)| *shader == material.shader) {
             self.programs.push((material.shader, Programs::compile(self.gl, material.shader)));
@@ -88,11 +97,18 @@ impl<'a> Device<'a> {
 
     /// Draws one object: `number` 0 in colours, else in ids.
     fn draw_object(&self, object: &Object<'_>, number: u32, scene: &Scene, camera: &Camera) {
-        let shader = object.material.shader;
-        let (_, programs) = self.programs.iter().find(|(known, _)| *known == shader).unwrap();
-        let program = if number == 0 { programs.color } else { programs.id };
-        unsafe { self.gl.use_program(Some(program)) };
-        self.set_uniforms(program, object, number, scene, camera);
+        let uploaded = self.upload(object, number == 0);
+        self.draw_uploaded(&uploaded, object, number, scene, camera);
+        unsafe {
+            self.gl.delete_vertex_array(uploaded.vertex_array);
+            uploaded.buffers.into_iter().for_each(|buffer| self.gl.delete_buffer(buffer));
+        }
+    }
+
+    /// Gives the driver an object's vertices, for its program of colours or that of ids.
+    pub(crate) fn upload(&self, object: &Object<'_>, in_colors: bool) -> Uploaded {
+        let (_, programs) = self.programs.iter().find(|(of, _)| *of == object.material.shader).unwrap();
+        let program = if in_colors { programs.color } else { programs.id };
         let mesh = &object.mesh;
         let arrays = [
             ("in_position", 3, mesh.positions.as_flattened()),
@@ -104,33 +120,40 @@ impl<'a> Device<'a> {
             Some(lines) => (glow::LINES, lines.as_flattened()),
             None => (glow::TRIANGLES, mesh.triangles.as_flattened()),
         };
-        self.draw_elements(program, &arrays, mode, indices);
-    }
-
-    fn draw_elements(
-        &self,
-        program: glow::Program,
-        arrays: &[(&str, i32, &[f32])],
-        mode: u32,
-        indices: &[u32],
-    ) {
         let gl = self.gl;
         unsafe {
             let vertex_array = gl.create_vertex_array().unwrap();
             gl.bind_vertex_array(Some(vertex_array));
             let mut buffers = Vec::new();
-            for &(name, components, values) in arrays {
+            for (name, components, values) in arrays {
                 let Some(location) = gl.get_attrib_location(program, name) else { continue };
                 assert!(!values.is_empty(), "the program reads {name}, but the mesh is made without it");
                 buffers.push(self.buffer(glow::ARRAY_BUFFER, values.iter().flat_map(|v| v.to_ne_bytes())));
                 gl.enable_vertex_attrib_array(location);
                 gl.vertex_attrib_pointer_f32(location, components, glow::FLOAT, false, 0, 0);
             }
-            buffers
-                .push(self.buffer(glow::ELEMENT_ARRAY_BUFFER, indices.iter().flat_map(|i| i.to_ne_bytes())));
-            gl.draw_elements(mode, i32::try_from(indices.len()).unwrap(), glow::UNSIGNED_INT, 0);
-            gl.delete_vertex_array(vertex_array);
-            buffers.into_iter().for_each(|buffer| gl.delete_buffer(buffer));
+            let bytes = indices.iter().flat_map(|i| i.to_ne_bytes());
+            buffers.push(self.buffer(glow::ELEMENT_ARRAY_BUFFER, bytes));
+            let count = i32::try_from(indices.len()).unwrap();
+            Uploaded { program, vertex_array, buffers, mode, count }
+        }
+    }
+
+    /// Draws what was uploaded: `number` 0 in colours, else in ids.
+    pub(crate) fn draw_uploaded(
+        &self,
+        uploaded: &Uploaded,
+        object: &Object<'_>,
+        number: u32,
+        scene: &Scene,
+        camera: &Camera,
+    ) {
+        let &Uploaded { program, vertex_array, mode, count, .. } = uploaded;
+        unsafe { self.gl.use_program(Some(program)) };
+        self.set_uniforms(program, object, number, scene, camera);
+        unsafe {
+            self.gl.bind_vertex_array(Some(vertex_array));
+            self.gl.draw_elements(mode, count, glow::UNSIGNED_INT, 0);
         }
     }
 

@@ -17,4 +17,5 @@ pub(crate) mod object;
 pub(crate) mod program;
 pub(crate) mod target;
 pub(crate) mod seams;
+pub(crate) mod table;
 pub(crate) mod tally;

@@ -36,16 +36,20 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     );
     guides(&mut plot, &x, &y);
     let points = panel.points(cost);
+    // What holds too much energy is no choice, but it belongs to the line of its method.
+    let is_drawn = |cell: &Measured| {
+        let error = cell.errors.get(moment).filter(|_| panel.is_compared(cell, moment));
+        cell.outcome <= Outcome::EnergyAboveBound && error.is_some_and(|error| error.rms < top)
+    };
     let along: Vec<_> = panel.hull(cost).into_iter().map(|i| points[i]).collect();
     plot.line(&along, HULL);
     for (method, &Method { name, .. }) in METHODS.iter().enumerate() {
         let style = Style::of_series(method);
-        let cells =
-            panel.cells.iter().zip(&points).enumerate().filter(|(_, (cell, _))| cell.method == method);
-        let line: Vec<_> =
-            cells.clone().map(|(_, (_, point))| *point).filter(|point| point[1].is_finite()).collect();
+        let cells = panel.cells.iter().enumerate().filter(|(_, cell)| cell.method == method);
+        let sound = cells.clone().filter(|(_, cell)| is_drawn(cell));
+        let line: Vec<_> = sound.map(|(_, cell)| [panel.cost(cell, cost), cell.errors[moment].rms]).collect();
         plot.line(&line, style);
-        for (i, (cell, _)) in cells {
+        for (i, cell) in cells {
             let error = cell.errors.get(moment).map_or(top, |error| error.rms.min(top));
             plot.marker(
                 [panel.cost(cell, cost), error],
@@ -72,8 +76,9 @@ fn cost_label(cost: Cost) -> &'static str {
 fn marker(panel: &PanelStudy, cell: &Measured, moment: usize, style: Style) -> Style {
     match cell.outcome {
         Outcome::Lost => Style { marker: Marker::Cross, ..style },
+        _ if moment >= cell.errors.len() => Style { marker: Marker::None, ..style },
         Outcome::TooDear => Style { marker: Marker::None, ..style },
-        Outcome::EnergyAboveBound => Style { hollow: true, ..style },
+        Outcome::EnergyAboveReference | Outcome::EnergyAboveBound => Style { hollow: true, ..style },
         Outcome::Ok if panel.is_compared(cell, moment) => style,
         Outcome::Ok => Style { color: "--soft", ..style },
     }
@@ -82,7 +87,12 @@ fn marker(panel: &PanelStudy, cell: &Measured, moment: usize, style: Style) -> S
 fn hint(panel: &PanelStudy, number: usize, moment: usize) -> String {
     let cell = &panel.cells[number];
     let error = cell.errors.get(moment).map_or_else(|| "no error".to_owned(), |e| format!("{:.2e} m", e.rms));
-    format!("{}: {error}, {:.3e} s/s, {}", panel.name(number), cell.wall(), cell.outcome.text())
+    format!(
+        "{}: {error}, {:.3e} s/s, {}",
+        panel.name(number),
+        cell.wall(),
+        cell.fate(panel.reference.floor.len())
+    )
 }
 
 /// Lines along which twice the cost halves or quarters the error.

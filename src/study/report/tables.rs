@@ -15,7 +15,7 @@ pub(super) fn advice(panel: &PanelStudy) -> String {
         vec![
             format!("{} s", advice.budget),
             name,
-            format!("{error:.2e}"),
+            format!("{}{error:.2e}", if panel.is_told(advice.use_point) { "" } else { "≤ " }),
             format!("{cost:.3}"),
             format!("{springs:.2e}"),
         ]
@@ -54,11 +54,11 @@ pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
     let rows = panel.cells.iter().enumerate().map(|(i, cell)| {
         let mut row = vec![
             escape(&panel.name(i)),
-            cell.outcome.text().to_owned(),
+            cell.fate(times.len()),
             format!("{:.4}", cell.wall()),
             format!("{:.2e}", cell.springs),
             cell.drift.map_or_else(|| "–".to_owned(), |drift| format!("{drift:+.2e}")),
-            format!("{:.3}", cell.stretch),
+            if cell.errors.is_empty() { "–".to_owned() } else { format!("{:.3}", cell.stretch) },
         ];
         row.extend((0..times.len()).map(|moment| match cell.errors.get(moment) {
             None => "–".to_owned(),
