@@ -269,6 +269,7 @@ impl<const N: usize> Plane<N> {
         let at = |[gx, gy]: [f64; 2]| L::splat_double(gx) * x + L::splat_double(gy) * y;
         let (l1, l2) = (at(self.steps[0]), at(self.steps[1]));
         let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
+        // Through memory, because the compiler otherwise mixes their lanes up.
         let [l0, l1, l2] = black_box([L::narrow(l0), L::narrow(l1), L::narrow(l2)]);
         let w0 = l0 * L::splat(self.r[0]);
         let w1 = l1 * L::splat(self.r[1]);
