@@ -63,17 +63,23 @@ pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
 /// `one` is what the zeroth power gives.
 #[inline(always)]
 pub fn powi<T: Copy + Mul<Output = T>>(base: T, exponent: u32, one: T) -> T {
-    let (mut result, mut square, mut bits) = (None, base, exponent);
-    while bits > 0 {
-        if bits & 1 == 1 {
-            result = Some(result.map_or(square, |r| r * square));
-        }
+    let (mut square, mut bits) = (base, exponent);
+    if bits == 0 {
+        return one;
+    }
+    while bits & 1 == 0 {
+        square = square * square;
         bits >>= 1;
-        if bits > 0 {
-            square = square * square;
+    }
+    let mut result = square;
+    while bits > 1 {
+        square = square * square;
+        bits >>= 1;
+        if bits & 1 == 1 {
+            result = result * square;
         }
     }
-    result.unwrap_or(one)
+    result
 }
 
 /// A well-mixed 64-bit number for each 64-bit number (Steele, Lea and Flood 2014, SplitMix64).

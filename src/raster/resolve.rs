@@ -5,7 +5,7 @@
 //! A pixel's colour is the mean over its samples of the clamped linear colours, rounded half to
 //! even to 8 bits.
 
-use std::{ops::Range, time::Instant};
+use std::{hint::black_box, ops::Range, time::Instant};
 
 use super::{
     TileCost, TileScene,
@@ -211,7 +211,8 @@ impl Work for WriteColors<'_> {
             for (i, color) in colors.iter_mut().enumerate() {
                 *color = store([red[i], green[i], blue[i]]);
             }
-            for (&pixel, color) in pixels.iter().zip(colors) {
+            // Through memory, because the compiler then packs them side by side.
+            for (&pixel, color) in pixels.iter().zip(black_box(colors)) {
                 tile.color[usize::from(pixel)] = color;
             }
         }

@@ -68,22 +68,39 @@ impl FragmentList {
 
     /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.
     pub(super) fn list_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
-        self.pixels.resize(visible.len(), 0);
-        self.primitives.resize(visible.len(), 0);
+        // A block is written as a whole, and what was not meant is overwritten by the next.
+        self.pixels.resize(visible.len() + WIDTH, 0);
+        self.primitives.resize(visible.len() + WIDTH, 0);
         let mut len = 0;
-        for row in (0..visible.len()).step_by(2 * TILE) {
-            for first in (row..row + TILE).step_by(4) {
-                if BLOCK.iter().fold(0, |seen, offset| seen | visible[first + offset]) == 0 {
-                    continue;
-                }
-                for offset in BLOCK {
-                    let (pixel, primitive) = (first + offset, visible[first + offset]);
-                    // Written always and kept only if it is one: no branch to mispredict.
-                    self.pixels[len] = place_in_tile(pixel);
-                    self.primitives[len] = primitive;
-                    len += usize::from(handles.contains(&primitive));
-                }
+        for first in (0..visible.len()).step_by(2 * TILE).flat_map(|row| (row..row + TILE).step_by(4)) {
+            let mut block = [0; WIDTH];
+            block[..4].copy_from_slice(&visible[first..first + 4]);
+            block[4..].copy_from_slice(&visible[first + TILE..first + TILE + 4]);
+            if block.iter().fold(0, |seen, handle| seen | handle) == 0 {
+                continue;
             }
+            let (Some(pixels), Some(primitives)) = (
+                self.pixels[len..].first_chunk_mut::<WIDTH>(),
+                self.primitives[len..].first_chunk_mut::<WIDTH>(),
+            ) else {
+                return;
+            };
+            if block.iter().fold(true, |all, handle| all & handles.contains(handle)) {
+                for (pixel, offset) in pixels.iter_mut().zip(BLOCK) {
+                    *pixel = place_in_tile(first + offset);
+                }
+                *primitives = block;
+                len += WIDTH;
+                continue;
+            }
+            let mut kept = 0;
+            for (offset, primitive) in BLOCK.into_iter().zip(block) {
+                // Written always and kept only if it is one: no branch to mispredict.
+                pixels[kept % WIDTH] = place_in_tile(first + offset);
+                primitives[kept % WIDTH] = primitive;
+                kept += usize::from(handles.contains(&primitive));
+            }
+            len += kept;
         }
         self.pixels.truncate(len);
         self.primitives.truncate(len);
@@ -252,9 +269,10 @@ impl<const N: usize> Plane<N> {
         let at = |[gx, gy]: [f64; 2]| L::splat_double(gx) * x + L::splat_double(gy) * y;
         let (l1, l2) = (at(self.steps[0]), at(self.steps[1]));
         let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
-        let w0 = L::narrow(l0) * L::splat(self.r[0]);
-        let w1 = L::narrow(l1) * L::splat(self.r[1]);
-        let w2 = L::narrow(l2) * L::splat(self.r[2]);
+        let [l0, l1, l2] = black_box([L::narrow(l0), L::narrow(l1), L::narrow(l2)]);
+        let w0 = l0 * L::splat(self.r[0]);
+        let w1 = l1 * L::splat(self.r[1]);
+        let w2 = l2 * L::splat(self.r[2]);
         let w = L::splat(1.0) / (w0 + w1 + w2);
         let [a, b, c] = &self.varyings;
         let mut result = [L::splat(0.0); N];
