@@ -35,8 +35,8 @@ pub struct SamplerCube<'a> {
 #[inline(always)]
 pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
     let Sampler2d { texture, filter } = sampler;
-    let texels = texture.texels();
-    look_up(filter, [u, v], [texture.width(), texture.height()], Edge::Repeat, |_| texels)
+    let size = [texture.width(), texture.height()];
+    look_up(filter, [u, v], size, Edge::Repeat, &[texture.texels(); WIDTH])
 }
 
 /// `texture(samplerCube, direction).rgb`. Ties between axes: z before y before x. The zero
@@ -45,10 +45,11 @@ pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
 pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Vec3<L> {
     let (face, s, t) = cube_face(direction);
     let (faces, size) = (sampler.cubemap.faces(), sampler.cubemap.size());
-    let face = face.to_whole();
-    look_up(sampler.filter, [s, t], [size; 2], Edge::Clamp, |lane| {
-        faces[face.0[lane].cast_unsigned() as usize].texels()
-    })
+    let mut texels = [faces[0].texels(); WIDTH];
+    for (texels, face) in texels.iter_mut().zip(face.to_whole().0) {
+        *texels = faces[face.cast_unsigned() as usize].texels();
+    }
+    look_up(sampler.filter, [s, t], [size; 2], Edge::Clamp, &texels)
 }
 
 /// Face number (posx, negx, posy, negy, posz, negz) and coordinates (s, t) in 0..=1 of a direction.
@@ -85,29 +86,29 @@ enum Edge {
     Clamp,
 }
 
-/// Filters texels around (u·w, v·h). `texels(lane)` is the picture that a lane reads.
+/// Filters texels around (u·w, v·h) of each lane's picture.
 #[inline(always)]
-fn look_up<'a, L: Lane>(
+fn look_up<L: Lane>(
     filter: Filter,
     [u, v]: [L; 2],
     [w, h]: [usize; 2],
     edge: Edge,
-    texels: impl Fn(usize) -> &'a [[f32; 4]],
+    texels: &[&[[f32; 4]]; WIDTH],
 ) -> Vec3<L> {
     let (w, h) = (side(w), side(h));
     let (x, y) = (u * size(w), v * size(h));
     match filter {
         Filter::Nearest => {
             let ([i, _], [j, _]) = (edge.neighbors(x.floor(), w), edge.neighbors(y.floor(), h));
-            gather(&texels, w, &i, &j)
+            gather(texels, w, &i, &j)
         }
         Filter::Bilinear => {
             let (x, y) = (x - L::splat(0.5), y - L::splat(0.5));
             let (i, j) = (x.floor(), y.floor());
             let (fx, fy) = (x - i, y - j);
             let ([i0, i1], [j0, j1]) = (edge.neighbors(i, w), edge.neighbors(j, h));
-            let top = mix(gather(&texels, w, &i0, &j0), gather(&texels, w, &i1, &j0), fx);
-            let bottom = mix(gather(&texels, w, &i0, &j1), gather(&texels, w, &i1, &j1), fx);
+            let top = mix(gather(texels, w, &i0, &j0), gather(texels, w, &i1, &j0), fx);
+            let bottom = mix(gather(texels, w, &i0, &j1), gather(texels, w, &i1, &j1), fx);
             mix(top, bottom, fy)
         }
     }
@@ -121,10 +122,10 @@ fn mix<L: Lane>(a: Vec3<L>, b: Vec3<L>, f: L) -> Vec3<L> {
 
 /// The texel in column i and row j of each lane's picture of width `w`, turned from pixels into channels.
 #[inline(always)]
-fn gather<'a, L: Lane>(texels: &impl Fn(usize) -> &'a [[f32; 4]], w: u32, i: &Places, j: &Places) -> Vec3<L> {
+fn gather<L: Lane>(texels: &[&[[f32; 4]]; WIDTH], w: u32, i: &Places, j: &Places) -> Vec3<L> {
     let mut fetched = [[0.0; 4]; WIDTH];
     for (lane, texel) in fetched.iter_mut().enumerate().take(L::LANES) {
-        *texel = texels(lane)[(j.0[lane] * w + i.0[lane]) as usize];
+        *texel = texels[lane][(j.0[lane] * w + i.0[lane]) as usize];
     }
     let channel = |c: usize| L::from_fn(|lane| fetched[lane][c]);
     vec3(channel(0), channel(1), channel(2))
