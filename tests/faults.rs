@@ -29,6 +29,10 @@ struct Fault {
     caught_by: String,
 }
 
+/// What the tests need of the package.
+const PARTS: [&str; 9] =
+    ["Cargo.toml", "Cargo.lock", "README.md", "src", "tests", "benches", "scenes", "textures", "docs"];
+
 fn package() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -61,9 +65,7 @@ fn every_fault_is_caught() {
     let faults: Vec<Fault> = faults().into_iter().filter(|f| f.fault.contains(&wanted)).collect();
     let copy = package().join("target/faults/package");
     let copied = |fault: Option<&Fault>| {
-        for part in ["Cargo.toml", "Cargo.lock", "src", "tests", "scenes", "textures", "README.md"] {
-            copy_changed(Path::new(part), &copy, fault);
-        }
+        PARTS.iter().for_each(|part| copy_changed(Path::new(part), &copy, fault));
     };
     copied(None);
     for Fault { caught_by, .. } in &faults {

@@ -55,7 +55,9 @@ fn the_study_shows_its_plots_and_pictures() {
 fn the_stability_map_shows_a_panel_for_each_density() {
     let Some(browser) = Browser::find() else { return };
     let folder = tempfile::tempdir().unwrap();
+    // At so few frames a second every threshold is within these steps: marks beyond are not drawn.
     let ranges = ["--ks", "500,5000", "--density", "15,150", "--steps", "1..40:log5", "--time", "0.1"];
+    let ranges = [&ranges[..], &["--set", "sim.fps=10"]].concat();
     let page =
         page(folder.path(), &[&["stability", "scene.json", "out"], &ranges[..]].concat(), "out/index.html");
     for found in opened(&page, &browser) {
