@@ -65,6 +65,10 @@ fn a_folder_gives_png_before_jpg_before_jpeg() {
     }
 }
 
+/// What the help about a folder ends with.
+const REPLACES: &str = "a folder replaces the whole built-in set: copy what you want to keep of it from \
+                        textures/ of the source, or name a texture that is there";
+
 #[test]
 fn a_missing_texture_says_what_was_looked_for_and_what_is_there() {
     let folder = folder(&[("stone.png", [9; 3]), ("bark.jpg", [9; 3])]);
@@ -75,7 +79,7 @@ fn a_missing_texture_says_what_was_looked_for_and_what_is_there() {
         error.to_string(),
         format!(
             "there is no texture brick in {place}: looked for brick.png, brick.jpg and brick.jpeg; \
-             the folder holds bark.jpg, stone.png"
+             the folder holds bark.jpg, stone.png; {REPLACES}"
         )
     );
     let error = source(&folder.path().join("nowhere")).texture("brick").unwrap_err();
@@ -86,12 +90,15 @@ fn a_missing_texture_says_what_was_looked_for_and_what_is_there() {
 #[test]
 fn a_full_folder_is_not_listed_to_the_end() {
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(source(folder.path()).texture("x").unwrap_err().help, "the folder is empty");
+    assert_eq!(
+        source(folder.path()).texture("x").unwrap_err().help,
+        format!("the folder is empty; {REPLACES}")
+    );
     for i in 10..35 {
         fs::write(folder.path().join(format!("{i}.txt")), "").unwrap();
     }
     let help = source(folder.path()).texture("x").unwrap_err().help;
-    assert!(help.ends_with("28.txt, 29.txt and 5 more"), "{help}");
+    assert!(help.ends_with(&format!("28.txt, 29.txt and 5 more; {REPLACES}")), "{help}");
 }
 
 #[test]
