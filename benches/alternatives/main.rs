@@ -54,10 +54,13 @@ fn scene(name: &str, sets: &[&str]) -> Scene {
     load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene
 }
 
-/// The median times of two pieces of work that take turns, after a turn that is not counted.
+/// Turns that are not counted: the driver compiles, memory is touched for the first time.
+const WARM_UP: usize = 5;
+
+/// The median times of two pieces of work that take turns.
 fn medians(rounds: usize, mut first: impl FnMut(), mut second: impl FnMut()) -> [Duration; 2] {
     let mut times = [Vec::new(), Vec::new()];
-    for _ in 0..=rounds {
+    for _ in 0..WARM_UP + rounds {
         for (times, work) in times.iter_mut().zip([&mut first as &mut dyn FnMut(), &mut second]) {
             let started = Instant::now();
             work();
@@ -65,7 +68,7 @@ fn medians(rounds: usize, mut first: impl FnMut(), mut second: impl FnMut()) -> 
         }
     }
     times.map(|mut times| {
-        times.remove(0);
+        times.drain(..WARM_UP);
         times.sort_unstable();
         times[times.len() / 2]
     })
