@@ -12,10 +12,10 @@
 //!   eigenvalue is 8 ks, at the wave in which neighbouring columns move against each other, and no
 //!   part of it has more. For a given cloth it is found by power iteration with its pins held, so
 //!   from below, on the whole grid or on a part of it: a part vibrates no faster than the whole.
-//!   With a side beyond [`PART`] points the part is [`PART`] points long and free of pins, and its
+//!   With a side beyond `PART` points the part is `PART` points long and free of pins, and its
 //!   eigenvalue less than 0.5 % below that of the endless lattice (0.1 % with every kind of
 //!   spring). Where the pins leave no such part it is the whole grid, with as many rounds as
-//!   [`WORK`] allows.
+//!   `WORK` allows.
 //! - *In any configuration* it is at most `k I`, so the scalar lattice bounds it: with
 //!   P = sin²(p/2) and Q = sin²(q/2) of the wave numbers p and q, the structural springs give
 //!   4 ks (P + Q), the shearing springs 8 ks (P + Q - 2 P Q) and the bending springs

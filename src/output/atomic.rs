@@ -55,14 +55,14 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 /// Writes `bytes` to standard output and flushes it.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_stdout(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
     let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
     written.map_err(|e| failed(Path::new("standard output"), &e))
 }
 
-/// Finds out before long work whether [`write`] would fail at `path`. Leaves no trace.
+/// Finds out before long work whether [`write()`] would fail at `path`. Leaves no trace.
 ///
 /// # Errors
 /// [`Kind::Io`] when the folder is missing or not writable or `path` is a folder;
