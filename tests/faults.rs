@@ -30,8 +30,18 @@ struct Fault {
 }
 
 /// What the tests need of the package.
-const PARTS: [&str; 9] =
-    ["Cargo.toml", "Cargo.lock", "README.md", "src", "tests", "benches", "scenes", "textures", "docs"];
+const PARTS: [&str; 10] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "README.md",
+    "src",
+    "tests",
+    "benches",
+    "scenes",
+    "textures",
+    "docs",
+    "golden",
+];
 
 fn package() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -127,6 +137,7 @@ fn run(copy: &Path, caught_by: &str) -> (bool, String) {
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .env("RUST_BACKTRACE", "0")
         .env("DRAPE_REQUIRE_GL", "1")
+        .env("DRAPE_REQUIRE_BROWSER", "1")
         .output()
         .unwrap();
     let text = [output.stdout, output.stderr].concat();

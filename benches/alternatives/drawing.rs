@@ -26,6 +26,7 @@ const FULL_SCREEN: [&str; 4] =
 pub(super) fn table(rounds: usize) {
     let context = match Context::open() {
         Ok(context) => context,
+        Err(why) if std::env::var_os("DRAPE_REQUIRE_GL").is_some() => panic!("no OpenGL: {why}"),
         Err(why) => return println!("no OpenGL 3.3 to compare with: {why}"),
     };
     let mut device = Device::new(&context);

@@ -1,7 +1,7 @@
 //! How fast the project is next to others, in one run: what is compared takes turns, and the
 //! table has medians and their ratio.
 //!
-//! `cargo bench --bench alternatives` prints a table for one thread and one for two. With `-- --test` everything runs once.
+//! `cargo bench --bench alternatives` prints a table for one thread and one for two. With `-- --test` it only shows that it runs.
 
 #![expect(
     clippy::unwrap_used,

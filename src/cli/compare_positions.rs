@@ -14,9 +14,11 @@ use self::verdict::{Case, Tried, Verdict};
 use super::Session;
 use super::advance::begin;
 use super::moments::Frames;
+use super::progress::Progress;
 use super::scene::{Leniency, SceneArgs, frame_at};
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
+use crate::simulation::Simulation;
 
 /// What `compare-positions` takes.
 #[derive(clap::Args)]
@@ -28,7 +30,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// The frame of the one state in the file (default: that of the scene's render.time)
-    #[arg(long, value_name = "N", conflicts_with = "frames")]
+    #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u64).range(..u64::MAX))]
     frame: Option<u64>,
     /// The frames of the states in the file, from A up to, without, B (default: found by their number)
     #[arg(long, value_name = "A..B")]
@@ -64,17 +66,25 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     let plural = if theirs.len() == 1 { "" } else { "s" };
     session.ui.note(&format!("{} state{plural}, the first at frame {first_frame}", theirs.len()));
     let last_frame = first_frame + theirs.len() as u64 - 1;
-    let mut simulation = begin(&scene, last_frame, None, args.leniency.allow_unstable, session)?;
-    let start = parting::start_of(&theirs[0], simulation.positions(), cloth).filter(|_| first_frame == 0);
-    if let Some(start) = &start {
+    let plain = Simulation::new(&scene)?;
+    let start = parting::start_of(&theirs[0], plain.positions(), cloth).filter(|_| first_frame == 0);
+    if start.is_some() {
         session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
-        simulation = begin(&scene, last_frame, Some(start), args.leniency.allow_unstable, session)?;
     }
-    let ours = Ours::simulate(simulation, first_frame, theirs.len(), session)?;
+    let simulation = begin(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
+    let mut progress = Progress::new(&session.ui, "simulating", last_frame);
+    let ours = Ours::simulate(simulation, first_frame, theirs.len(), |simulation| {
+        progress.set(simulation.frame());
+        session.signals.check()
+    })?;
+    drop(progress);
     let case = Case { scene: &scene, cloth, first_frame, start, ours: &ours, theirs: &theirs };
     let difference = Difference::first(&case, args.tolerance);
     let Verdict { words, mistakes } = match &difference {
-        None => Verdict::only("the positions are those of the method"),
+        None if args.tolerance > 0.0 => {
+            Verdict::only("the positions are within the tolerance of the method's")
+        }
+        None => Verdict::only("the positions are those of the method: every bit is equal"),
         Some(_) => case.judge(args.tolerance, session)?,
     };
     let (states, tolerance) = (theirs.len(), args.tolerance);

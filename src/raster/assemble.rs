@@ -44,7 +44,7 @@ pub(super) struct Counts {
 /// The handle of primitive `index` of chunk `chunk`.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "2^18 chunks of 2048 are more than an index buffer holds"
+    reason = "the largest scene has fewer than 2^18 chunks (scene::checks)"
 )]
 pub(super) fn handle(chunk: usize, index: u32) -> Handle {
     ((chunk as u32) << CHUNK_BITS) + index + 1

@@ -5,7 +5,7 @@ use super::samples;
 /// Sub-pixel positions per pixel: coverage is decided on a grid of 1/256 pixel.
 pub(super) const SUBPIXELS: i32 = 256;
 
-/// Largest snapped coordinate: 2^23/256 pixels. With it every edge value stays below 2^48.
+/// Largest snapped coordinate: 2^23/256 pixels. With it every edge value stays below 2^50.
 const SNAPPED_LIMIT: f32 = 8_388_608.0;
 
 /// The part of the window that pictures use.

@@ -187,7 +187,11 @@ fn tile_edges(corners: &[Corner; 3], tile: &Tile, offset: [i32; 2]) -> Option<[E
 }
 
 /// The edge from `from` to `to` over a tile; `None` if the whole tile is outside.
-#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "bounded by `reach` < 2^30")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "an edge that crosses the tile is below 127 · 2^24 in it"
+)]
 #[inline(always)]
 fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Option<Edge> {
     let (column, row) = (from[1] - to[1], to[0] - from[0]);

@@ -14,7 +14,7 @@ pub const MAX_POINTS: usize = 1 << 22;
 pub const MAX_OBJECTS: usize = 255;
 
 /// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
-/// primitives than the rasteriser can number (see `raster::bin`).
+/// primitives than the rasteriser can number (see `raster::assemble`).
 pub const MAX_RESOLUTION: u32 = 1000;
 
 /// A scene that was read from `document`, under check.

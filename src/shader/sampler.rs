@@ -40,7 +40,7 @@ pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
 }
 
 /// `texture(samplerCube, direction).rgb`. Ties between axes: z before y before x. The zero
-/// direction (and NaN) reads the middle of the +x face.
+/// direction (and NaN, and one whose squared length is 0 in f32) reads the middle of the +x face.
 #[inline(always)]
 pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Vec3<L> {
     let (face, s, t) = cube_face(direction);

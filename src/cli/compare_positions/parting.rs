@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::super::{Session, progress::Progress};
 use super::states::State;
 use super::verdict::Case;
 use crate::cloth::{Counters, Points};
@@ -17,6 +16,7 @@ const ROUNDING: f64 = 1e-11;
 /// The first difference.
 #[derive(Serialize)]
 pub(super) struct Difference {
+    /// The frame.
     pub(super) frame: u64,
     /// Column and row of the first point that differs.
     pub(super) point: [usize; 2],
@@ -35,20 +35,18 @@ pub(super) struct Ours {
 }
 
 impl Ours {
-    /// The states of `count` frames from `first` on.
+    /// The states of `count` frames from `first` on; `each` is called after every frame.
     pub(super) fn simulate(
         mut simulation: Simulation,
         first: u64,
         count: usize,
-        session: &Session,
+        mut each: impl FnMut(&Simulation) -> Result<()>,
     ) -> Result<Vec<Self>> {
-        let mut progress = Progress::new(&session.ui, "simulating", first + count as u64 - 1);
         let mut states = Vec::new();
         for frame in first..first + count as u64 {
             while simulation.frame() < frame {
-                session.signals.check()?;
                 simulation.advance_frame()?;
-                progress.set(simulation.frame());
+                each(&simulation)?;
             }
             states.push(Self { positions: simulation.positions().clone(), counters: simulation.counters() });
         }
@@ -89,9 +87,9 @@ pub(super) fn start_of(theirs: &State, ours: &Points, cloth: &Cloth) -> Option<P
         if !near {
             return None;
         }
-        start.set(p, at.into());
+        start.z[p] = at[2];
     }
-    (cloth.orientation == Orientation::Vertical).then_some(start)
+    (cloth.orientation == Orientation::Vertical && start.z != ours.z).then_some(start)
 }
 
 fn first(ours: &Points, theirs: &State, tolerance: f64) -> Option<usize> {

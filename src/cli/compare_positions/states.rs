@@ -9,8 +9,8 @@ use crate::error::{Error, Kind, Result};
 pub(super) type State = Vec<[f64; 3]>;
 
 /// The states in a file, each of `width` x `height` points: f64 little-endian, or decimal numbers between
-/// spaces, commas, brackets or ends of lines. In a text, what follows `#` is not read, nor is a first
-/// line without a number.
+/// spaces, commas, brackets or ends of lines. In a text, what follows `#` is not read, nor are first
+/// lines without a number.
 ///
 /// # Errors
 /// [`Kind::Io`] when the file cannot be read or does not hold whole states.
@@ -51,9 +51,14 @@ fn is_plain(text: &str) -> bool {
 /// The numbers of a text, or what is wrong with it.
 fn numbers(text: &str) -> Result<Vec<f64>, String> {
     let mut numbers = Vec::new();
-    for (number, line) in (1..).zip(text.lines()) {
+    for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         // What C++ on Windows writes for a number that is none.
-        let line = line.split('#').next().unwrap_or(line).replace("(ind)", "").replace("(snan)", "");
+        let line = line
+            .replace("(ind)", "")
+            .replace("(snan)", "")
+            .replace("1.#IND", "nan")
+            .replace("1.#QNAN", "nan");
+        let line = line.split('#').next().unwrap_or(&line);
         let words = line.split(|c: char| c.is_whitespace() || ",;()[]{}".contains(c));
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let values: Vec<Option<f64>> = words.iter().map(|word| word.parse().ok()).collect();
@@ -88,11 +93,14 @@ mod tests {
             "x y z\r\n# frame 0\r\n1\t-2.5\t3e-3\r\n4 5 0.1 # the end",
             "(1, -2.5, 3e-3)\n(4, 5, 0.1)\n",
             "[[1, -2.5, 3e-3], [4, 5, 0.1]]",
+            "\u{feff}1 -2.5 3e-3 4 5 0.1",
         ] {
             assert_eq!(read_bytes(text.as_bytes(), 1), expected, "{text}");
         }
-        let nan = read_bytes(b"1 2 -nan(ind)", 1).unwrap();
-        assert!(nan[0][0][2].is_nan(), "{nan:?}");
+        for none in [&b"1 2 -nan(ind)"[..], b"1 2 -1.#IND"] {
+            let nan = read_bytes(none, 1).unwrap();
+            assert!(nan[0][0][2].is_nan(), "{nan:?}");
+        }
     }
 
     #[test]

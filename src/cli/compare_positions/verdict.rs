@@ -15,7 +15,7 @@ use super::parting::{Ours, largest};
 use super::states::State;
 use crate::cloth::{Counters, Points};
 use crate::error::{Kind, Result};
-use crate::scene::{Cloth, Scene};
+use crate::scene::{Cloth, Orientation, Scene};
 use crate::simulation::Simulation;
 
 /// A difference that rounding does not make before contact, in metres.
@@ -38,7 +38,9 @@ const RESEMBLES: f64 = 0.3;
 /// Two programs' states of the same frames.
 pub(super) struct Case<'a> {
     pub(super) scene: &'a Scene,
+    /// That of the scene.
     pub(super) cloth: &'a Cloth,
+    /// The frame of the first states.
     pub(super) first_frame: u64,
     /// Where the cloth starts, if not where the method lets it start.
     pub(super) start: Option<Points>,
@@ -57,7 +59,7 @@ pub(super) struct Verdict {
 #[derive(Serialize)]
 pub(super) struct Tried {
     mistake: &'static str,
-    /// 0: the mistake explains everything, 1: nothing.
+    /// 0: the mistake explains everything, 1: nothing; the largest number there is: it led nowhere.
     pub(super) left: f64,
 }
 
@@ -75,7 +77,7 @@ impl Tried {
         if *left <= EXPLAINS {
             return format!("tried       explains it all: {mistake}\n");
         }
-        format!("tried       leaves {:.0} % of the difference: {mistake}\n", left * 100.0)
+        format!("tried       leaves {:.1} % of the difference: {mistake}\n", left * 100.0)
     }
 }
 
@@ -84,10 +86,7 @@ impl Case<'_> {
     pub(super) fn judge(&self, tolerance: f64, session: &Session) -> Result<Verdict> {
         let apart = self.apart(0..self.theirs.len(), self.ours);
         let Some(k) = apart.iter().position(|&distance| distance > CLEAR.max(tolerance)) else {
-            return Ok(Verdict::only(
-                "this looks like rounding: the same method with its operations in another order, or written with \
-                 fewer than 17 digits",
-            ));
+            return Ok(Verdict::only(self.too_near(&apart)));
         };
         if let Some(words) = self.no_number(k).or_else(|| self.misread(k)) {
             return Ok(Verdict::only(words));
@@ -114,6 +113,19 @@ impl Case<'_> {
             _ => self.suspects(self.ours[k].counters),
         };
         Ok(Verdict { words, mistakes })
+    }
+
+    /// What no clear difference means.
+    fn too_near(&self, apart: &[f64]) -> String {
+        let rounding = "this looks like rounding: the same method with its operations in another order, or written \
+                        with fewer than 17 digits";
+        let grown = apart.last().is_some_and(|&last| last > ROUNDING) && apart.len() < WINDOW;
+        let few = if grown {
+            "; a mistake that has hardly acted yet looks so too, and more frames would tell"
+        } else {
+            ""
+        };
+        format!("{rounding}{few}")
     }
 
     /// The largest distance of each of the states `window`, if ours are `ours`.
@@ -157,13 +169,20 @@ impl Case<'_> {
             None => Simulation::new(self.scene)?,
         };
         simulation.allow_unstable();
-        while largest(simulation.positions(), &self.theirs[k]) > CLEAR {
+        let near = |simulation: &Simulation, state: &State| largest(simulation.positions(), state) <= CLEAR;
+        while simulation.frame() <= end {
             session.signals.check()?;
-            if simulation.frame() == end || simulation.advance_frame().is_err() {
-                return Ok(None);
+            let (frame, here) = (simulation.frame(), near(&simulation, &self.theirs[k]));
+            let ended = simulation.advance_frame().is_err();
+            let next = self.theirs.get(k + 1).is_none_or(|next| near(&simulation, next));
+            if here && next {
+                return Ok(Some(frame));
+            }
+            if ended {
+                break;
             }
         }
-        Ok(Some(simulation.frame()))
+        Ok(None)
     }
 
     /// Says that state `k` is that of another frame of ours.
@@ -180,15 +199,17 @@ impl Case<'_> {
 
     /// Runs every mistake over some states from `k` on; the one that comes nearest to theirs first.
     fn try_all(&self, mistakes: &[Mistake], k: usize, session: &Session) -> Result<Vec<Tried>> {
-        let window = k..(k + WINDOW).min(self.theirs.len());
+        let ahead = self.theirs[k..].iter().take(WINDOW);
+        let window =
+            k..k + ahead.take_while(|state| state.as_flattened().iter().all(|x| x.is_finite())).count();
         let error = |ours: &[Ours]| self.apart(window.clone(), ours).iter().sum::<f64>();
         let without = error(&self.ours[window.clone()]);
         let progress = Tally::new(&session.ui, "trying mistakes", mistakes.len() as u64);
         let first = self.first_frame + k as u64;
         let tried = mistakes.par_iter().map(|mistake| {
-            let states = mistake
-                .simulation(self.start.as_ref())
-                .and_then(|simulation| Ours::simulate(simulation, first, window.len(), session));
+            let states = mistake.simulation(self.start.as_ref()).and_then(|simulation| {
+                Ours::simulate(simulation, first, window.len(), |_| session.signals.check())
+            });
             progress.add(1);
             match states {
                 // A mistake that leads nowhere is not the one that was made.
@@ -226,18 +247,24 @@ impl Case<'_> {
         } else {
             ""
         };
+        let depths = if self.cloth.orientation == Orientation::Vertical && self.first_frame > 0 {
+            ". The depths at which a vertical cloth starts are random: with frame 0 in the file ours would start from them"
+        } else {
+            ""
+        };
         format!(
-            "none of the mistakes that can be run, or two at once; up to there acted {always}{acted}{single}"
+            "none of the mistakes that can be run, or two at once; up to there acted \
+             {always}{acted}{single}{depths}"
         )
     }
 }
 
 /// Whether distances grew from those of rounding over some frames, without a jump.
 fn grew(apart: &[f64]) -> bool {
-    let mut seen = apart.iter().skip_while(|&&distance| distance == 0.0);
-    let starts_small = seen.clone().next().is_some_and(|&first| first <= ROUNDING);
-    let slowly = apart.windows(2).all(|pair| pair[0] == 0.0 || pair[1] <= GROWTH * pair[0]);
-    starts_small && slowly && seen.nth(2).is_some()
+    let seen: Vec<f64> = apart.iter().copied().skip_while(|&distance| distance == 0.0).collect();
+    let starts_small = seen.first().is_some_and(|&first| first <= ROUNDING);
+    let slowly = seen.as_slice().windows(2).all(|pair| pair[1] <= GROWTH * pair[0]);
+    starts_small && slowly && seen.len() > 2
 }
 
 #[cfg(test)]
@@ -248,6 +275,7 @@ mod tests {
     fn rounding_grows_and_mistakes_jump() {
         assert!(grew(&[0.0, 1e-16, 1e-14, 3e-13, 2e-10, 1e-7, 1e-5]));
         assert!(!grew(&[1e-16, 1e-14, 3e-13, 1e-5]), "a jump");
+        assert!(!grew(&[0.0, 1e-16, 0.0, 1e-5]), "a jump from nothing");
         assert!(!grew(&[1e-9, 1e-8, 1e-7, 1e-5]), "too large at first");
         assert!(!grew(&[1e-12, 1e-5]), "too few");
     }
