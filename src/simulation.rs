@@ -53,18 +53,15 @@ impl Simulation {
     /// [`crate::error::Kind::Scene`] when the cloth does not fit in memory, has fewer than 2 x 2 points, or a pin
     /// lies outside it.
     pub fn new(scene: &Scene) -> Result<Self> {
-        Self::build(scene, None)
+        Self::starting_at(scene, None)
     }
 
-    /// The simulation of `scene` with its points at `x` at the start, where its springs are at rest.
+    /// The simulation of `scene`; if `start` is given, its points are there at the start, and its
+    /// springs at rest.
     ///
     /// # Errors
     /// As [`Simulation::new`]; [`crate::error::Kind::Scene`] too when there is not one position for each point.
-    pub fn starting_at(scene: &Scene, x: &Points) -> Result<Self> {
-        Self::build(scene, Some(x))
-    }
-
-    fn build(scene: &Scene, start: Option<&Points>) -> Result<Self> {
+    pub fn starting_at(scene: &Scene, start: Option<&Points>) -> Result<Self> {
         Ok(Self {
             steps_per_frame: u64::from(scene.sim.steps_per_frame),
             steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),

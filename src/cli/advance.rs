@@ -37,10 +37,7 @@ pub(super) fn begin(
     allow_unstable: bool,
     session: &Session,
 ) -> Result<Simulation> {
-    let mut simulation = match x {
-        Some(x) => Simulation::starting_at(scene, x)?,
-        None => Simulation::new(scene)?,
-    };
+    let mut simulation = Simulation::starting_at(scene, x)?;
     if allow_unstable {
         simulation.allow_unstable();
     }

@@ -34,10 +34,7 @@ impl Mistake {
     /// # Errors
     /// As [`Simulation::new`].
     pub(super) fn simulation(&self, start: Option<&Points>) -> Result<Simulation> {
-        let mut simulation = match start {
-            Some(x) => Simulation::starting_at(&self.scene, x)?,
-            None => Simulation::new(&self.scene)?,
-        };
+        let mut simulation = Simulation::starting_at(&self.scene, start)?;
         match self.change {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
             Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),

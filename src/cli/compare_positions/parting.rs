@@ -9,9 +9,11 @@ use crate::error::Result;
 use crate::scene::{Cloth, Orientation};
 use crate::simulation::Simulation;
 
-/// Largest depth of a point of a vertical cloth at its start, in metres, and what rounding moves it by.
+/// Largest depth of a point of a vertical cloth at its start, in metres.
 const JITTER: f64 = 1e-3;
-const ROUNDING: f64 = 1e-11;
+
+/// Largest difference that a changed order of operations makes at first, in metres.
+pub(super) const ROUNDING: f64 = 1e-11;
 
 /// The first difference.
 #[derive(Serialize)]

@@ -11,7 +11,7 @@ use super::super::Session;
 use super::super::progress::Tally;
 use super::super::scene::frame_at;
 use super::mistakes::{self, Mistake};
-use super::parting::{Ours, largest};
+use super::parting::{Ours, ROUNDING, largest};
 use super::states::State;
 use crate::cloth::{Counters, Points};
 use crate::error::{Kind, Result};
@@ -21,9 +21,7 @@ use crate::simulation::Simulation;
 /// A difference that rounding does not make before contact, in metres.
 const CLEAR: f64 = 1e-6;
 
-/// A difference that a changed order of operations makes at first, in metres, and by how much it
-/// may grow from one frame to the next.
-const ROUNDING: f64 = 1e-11;
+/// By how much a difference that rounding made may grow from one frame to the next.
 const GROWTH: f64 = 1e4;
 
 /// How many states from the first clear difference a mistake is held against. Further on chaos hides it.
@@ -164,10 +162,7 @@ impl Case<'_> {
     /// Another frame of ours that is state `k`.
     fn frame_like(&self, k: usize, session: &Session) -> Result<Option<u64>> {
         let end = frame_at(None, self.scene).max(self.first_frame + self.theirs.len() as u64);
-        let mut simulation = match &self.start {
-            Some(x) => Simulation::starting_at(self.scene, x)?,
-            None => Simulation::new(self.scene)?,
-        };
+        let mut simulation = Simulation::starting_at(self.scene, self.start.as_ref())?;
         simulation.allow_unstable();
         let near = |simulation: &Simulation, state: &State| largest(simulation.positions(), state) <= CLEAR;
         while simulation.frame() <= end {
