@@ -1,7 +1,10 @@
-//! Where a picture is made: colour, depth and visible primitive per pixel, kept tile by tile so
+//! Where a picture is made: colour and depth per pixel, kept tile by tile so
 //! that each tile is one disjoint piece of memory for one thread.
 
-use super::{assemble::Chunk, vertex::VertexBuffer};
+use super::{
+    assemble::{Chunk, Handle},
+    vertex::VertexBuffer,
+};
 
 /// Width and height of a tile in pixels.
 pub(super) const TILE: usize = 64;
@@ -33,8 +36,9 @@ pub(super) struct Tile {
     pub(super) color: Vec<u32>,
     /// Window depth per sample; 1 where nothing was drawn.
     pub(super) depth: Vec<f32>,
-    /// The primitive seen per sample (see `assemble::Handle`); 0 where nothing was drawn.
-    pub(super) visible: Vec<u32>,
+    /// While the tile is drawn, the primitive seen per sample; 0 where nothing was drawn. Its memory is the
+    /// drawing thread's, so that it stays in the cache.
+    pub(super) visible: Vec<Handle>,
     /// Object and triangle per pixel (of sample 0), if asked for.
     pub(super) ids: Vec<u32>,
     /// The colour that the tile was cleared to, if nothing was drawn since.
@@ -47,12 +51,23 @@ impl Tile {
         [self.left / TILE, self.top / TILE]
     }
 
-    /// Clears colour, depth and visibility.
+    /// Clears colour and depth, if anything else is there.
     pub(super) fn clear(&mut self, color: u32) {
-        self.color.fill(color);
+        if self.cleared != Some(color) {
+            self.color.fill(color);
+            self.depth.fill(1.0);
+            self.cleared = Some(color);
+        }
+    }
+
+    /// Clears depth and visibility, for which there is `memory`. Colours wait until it is known where the
+    /// background is seen.
+    pub(super) fn begin(&mut self, memory: Vec<Handle>) {
         self.depth.fill(1.0);
-        self.visible.fill(0);
-        self.cleared = Some(color);
+        self.visible = memory;
+        self.visible.clear();
+        self.visible.resize(self.depth.len(), 0);
+        self.cleared = None;
     }
 }
 
@@ -67,7 +82,7 @@ impl Framebuffer {
                 top: i / columns * TILE,
                 color: vec![0; TILE_PIXELS],
                 depth: vec![1.0; TILE_PIXELS * samples],
-                visible: vec![0; TILE_PIXELS * samples],
+                visible: Vec::new(),
                 ids: Vec::new(),
                 cleared: None,
             })

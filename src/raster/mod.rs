@@ -32,6 +32,7 @@ use crate::{
     shader::glsl::{FragmentProgram, VertexProgram},
 };
 use assemble::{CHUNK, Chunk};
+use resolve::{Scratch, draw_tile};
 use setup::Viewport;
 use shade::{FragmentList, Shade, ShadeInput};
 use vertex::VertexBuffer;
@@ -144,7 +145,7 @@ pub fn draw(
     let scene = TileScene { calls, buffers, chunks, viewport, background, ids };
     let tiles: Vec<TileCost> = tiles
         .par_iter_mut()
-        .map_init(FragmentList::default, |list, tile| resolve::draw_tile(tile, &scene, list))
+        .map_init(Scratch::default, |scratch, tile| draw_tile(tile, &scene, scratch))
         .collect();
 
     let wall = binned.elapsed();

@@ -5,14 +5,14 @@
 //! A pixel's colour is the mean over its samples of the clamped linear colours, rounded half to
 //! even to 8 bits.
 
-use std::{hint::black_box, ops::Range, time::Instant};
+use std::{hint::black_box, mem::take, ops::Range, time::Instant};
 
 use super::{
     TileCost, TileScene,
     assemble::{Handle, handle, place},
-    framebuffer::{TILE_PIXELS, Tile},
+    framebuffer::{TILE, TILE_PIXELS, Tile},
     line::draw_line,
-    shade::{FragmentList, ShadeInput, in_blocks},
+    shade::{FragmentList, ShadeInput, in_blocks, is_block},
     tile::{TileBounds, draw_triangle},
 };
 use crate::{
@@ -20,27 +20,37 @@ use crate::{
     lanes::WIDTH,
 };
 
-/// Draws one tile. What is in `list` does not matter; its memory is used.
-pub(super) fn draw_tile(tile: &mut Tile, scene: &TileScene<'_>, list: &mut FragmentList) -> TileCost {
+/// Memory that a thread uses for one tile after the other.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    visible: Vec<Handle>,
+    list: FragmentList,
+}
+
+/// Draws one tile. What is in `scratch` does not matter.
+pub(super) fn draw_tile(tile: &mut Tile, scene: &TileScene<'_>, scratch: &mut Scratch) -> TileCost {
     let started = Instant::now();
     let at = tile.place();
     let touching = (0..scene.chunks.len()).filter(|&chunk| !scene.chunks[chunk].bins.in_tile(at).is_empty());
     let chunks: Vec<usize> = touching.collect();
     let background = store(scene.background.map(clamp));
-    // A tile in which nothing is drawn, as in the picture before, need not be cleared again.
-    if !chunks.is_empty() || tile.cleared != Some(background) {
+    tile.ids.clear();
+    if chunks.is_empty() {
         tile.clear(background);
+        tile.ids.resize(if scene.ids { TILE_PIXELS } else { 0 }, 0);
+        return TileCost { raster: started.elapsed(), ..TileCost::default() };
     }
-    if !chunks.is_empty() {
-        tile.cleared = None;
-        dispatch(Visibility { tile, chunks: &chunks, scene });
+    tile.begin(take(&mut scratch.visible));
+    dispatch(Visibility { tile, chunks: &chunks, scene });
+    if tile.visible.contains(&0) {
+        tile.color.fill(background);
     }
     let seen = Instant::now();
-    let (fragments, covered) = shade_tile(tile, &chunks, scene, list);
-    tile.ids.clear();
+    let (fragments, covered) = shade_tile(tile, &chunks, scene, &mut scratch.list);
     if scene.ids {
-        tile.ids = tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)).collect();
+        tile.ids.extend(tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)));
     }
+    scratch.visible = take(&mut tile.visible);
     TileCost { fragments, covered, raster: seen - started, shading: seen.elapsed() }
 }
 
@@ -52,7 +62,7 @@ fn shade_tile(
     list: &mut FragmentList,
 ) -> (u64, u64) {
     let samples = scene.viewport.samples;
-    let mut pixels = Pixels::of(tile, scene, !chunks.is_empty());
+    let mut pixels = Pixels::of(tile, scene);
     let mut fragments = 0;
     for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
         let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
@@ -64,7 +74,7 @@ fn shade_tile(
     (fragments, if samples == 1 { fragments } else { pixels.resolve(tile) })
 }
 
-/// The pixels of a tile with several samples; empty if there is one, or nothing is drawn.
+/// The pixels of a tile with several samples; empty if there is one.
 struct Pixels {
     /// Handles of all samples together: 0 where only the background is seen.
     seen: Vec<u32>,
@@ -75,9 +85,9 @@ struct Pixels {
 
 impl Pixels {
     /// The pixels with the background's share.
-    fn of(tile: &Tile, scene: &TileScene<'_>, drawn: bool) -> Self {
+    fn of(tile: &Tile, scene: &TileScene<'_>) -> Self {
         let samples = scene.viewport.samples;
-        if samples == 1 || !drawn {
+        if samples == 1 {
             return Self { seen: Vec::new(), sums: Vec::new() };
         }
         let background = scene.background.map(clamp);
@@ -144,6 +154,20 @@ impl Work for Visibility<'_> {
     }
 }
 
+/// The fragments of a tile with one sample.
+struct ListVisible<'a> {
+    visible: &'a [Handle],
+    handles: &'a Range<Handle>,
+    list: &'a mut FragmentList,
+}
+
+impl Work for ListVisible<'_> {
+    #[inline(always)]
+    fn run(self) {
+        self.list.list_visible(self.visible, self.handles);
+    }
+}
+
 /// What each sample of a pixel sees.
 fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
     (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
@@ -157,10 +181,10 @@ fn collect_fragments(
     samples: usize,
     list: &mut FragmentList,
 ) {
-    list.clear();
+    list.clear(samples);
     let handles = handle(chunks.start, 0)..handle(chunks.end, 0);
     if samples == 1 {
-        list.list_visible(&tile.visible, &handles);
+        dispatch(ListVisible { visible: &tile.visible, handles: &handles, list });
     } else {
         for pixel in in_blocks().filter(|&pixel| seen[pixel] != 0) {
             let primitive = tile.visible[pixel];
@@ -205,17 +229,30 @@ impl Work for WriteColors<'_> {
             return;
         }
         let colors = red.chunks_exact(WIDTH).zip(green.chunks_exact(WIDTH)).zip(blue.chunks_exact(WIDTH));
-        for (pixels, ((red, green), blue)) in list.pixels.chunks_exact(WIDTH).zip(colors) {
-            // The list is filled up with a fragment that is stored once more, with the same colour.
+        for (pixels, ((red, green), blue)) in list.filled().as_chunks().0.iter().zip(colors) {
             let mut colors = [0; WIDTH];
             for (i, color) in colors.iter_mut().enumerate() {
                 *color = store([red[i], green[i], blue[i]]);
             }
             // Through memory, because the compiler then packs them side by side.
-            for (&pixel, color) in pixels.iter().zip(black_box(colors)) {
-                tile.color[usize::from(pixel)] = color;
-            }
+            write(&mut tile.color, pixels, &black_box(colors));
         }
+    }
+}
+
+/// Writes the colours of eight fragments. The last may be one that fills the list up: it is stored once
+/// more, with the same colour.
+#[inline(always)]
+fn write(tile: &mut [u32], pixels: &[u16; WIDTH], colors: &[u32; WIDTH]) {
+    if is_block(pixels) {
+        let first = usize::from(pixels[0]);
+        let (top, bottom) = colors.split_at(WIDTH / 2);
+        tile[first..first + WIDTH / 2].copy_from_slice(top);
+        tile[first + TILE..first + TILE + WIDTH / 2].copy_from_slice(bottom);
+        return;
+    }
+    for (&pixel, &color) in pixels.iter().zip(colors) {
+        tile[usize::from(pixel)] = color;
     }
 }
 

@@ -25,20 +25,27 @@ const TILE_SIDE: u16 = TILE as u16;
 
 /// Pixels of a block of four by two. Small triangles fill blocks better than rows, and the fewer
 /// triangles meet in a group of fragments, the less there is to interpolate.
-const BLOCK: [usize; WIDTH] = [0, 1, 2, 3, TILE, TILE + 1, TILE + 2, TILE + 3];
+const BLOCK: [u16; WIDTH] = [0, 1, 2, 3, TILE_SIDE, TILE_SIDE + 1, TILE_SIDE + 2, TILE_SIDE + 3];
+
+/// Whether eight pixels are those of a block.
+#[inline(always)]
+pub(super) fn is_block(pixels: &[u16; WIDTH]) -> bool {
+    let differing = |seen, (&pixel, offset): (&u16, u16)| seen | (pixel.wrapping_sub(pixels[0]) ^ offset);
+    pixels.iter().zip(BLOCK).fold(0, differing) == 0
+}
 
 /// The pixels of a tile, block by block.
 pub(super) fn in_blocks() -> impl Iterator<Item = usize> {
     let rows = (0..TILE_PIXELS).step_by(2 * TILE);
     let firsts = rows.flat_map(|row| (row..row + TILE).step_by(4));
-    firsts.flat_map(|first| BLOCK.map(|offset| first + offset))
+    firsts.flat_map(|first| BLOCK.map(|offset| first + usize::from(offset)))
 }
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of eight by repeating the last fragment.
 #[derive(Debug, Default)]
 pub(super) struct FragmentList {
-    /// How many fragments are meant.
+    /// How many fragments are meant. The lists have room for more.
     pub(super) len: usize,
     /// Place of the pixel in the tile.
     pub(super) pixels: Vec<u16>,
@@ -59,18 +66,23 @@ pub(super) struct ShadeInput<'a> {
 }
 
 impl FragmentList {
-    /// Empties the list.
-    pub(super) fn clear(&mut self) {
-        self.pixels.clear();
-        self.weights.clear();
-        self.primitives.clear();
+    /// Empties the list and makes room for what a tile's samples may see. A list is used again and again,
+    /// and what it held is not cleared.
+    pub(super) fn clear(&mut self, samples: usize) {
+        let room = TILE_PIXELS * samples + WIDTH;
+        self.len = 0;
+        self.pixels.resize(room, 0);
+        self.weights.resize(room, 0);
+        self.primitives.resize(room, 0);
+        for plane in &mut self.colors {
+            plane.resize(room, 0.0);
+        }
     }
 
     /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.
+    #[inline(always)]
     pub(super) fn list_visible(&mut self, visible: &[Handle], handles: &Range<Handle>) {
         // A block is written as a whole, and what was not meant is overwritten by the next.
-        self.pixels.resize(visible.len() + WIDTH, 0);
-        self.primitives.resize(visible.len() + WIDTH, 0);
         let mut len = 0;
         for first in (0..visible.len()).step_by(2 * TILE).flat_map(|row| (row..row + TILE).step_by(4)) {
             let mut block = [0; WIDTH];
@@ -86,9 +98,7 @@ impl FragmentList {
                 return;
             };
             if block.iter().fold(true, |all, handle| all & handles.contains(handle)) {
-                for (pixel, offset) in pixels.iter_mut().zip(BLOCK) {
-                    *pixel = place_in_tile(first + offset);
-                }
+                *pixels = BLOCK.map(|offset| place_in_tile(first) + offset);
                 *primitives = block;
                 len += WIDTH;
                 continue;
@@ -96,21 +106,21 @@ impl FragmentList {
             let mut kept = 0;
             for (offset, primitive) in BLOCK.into_iter().zip(block) {
                 // Written always and kept only if it is one: no branch to mispredict.
-                pixels[kept % WIDTH] = place_in_tile(first + offset);
+                pixels[kept % WIDTH] = place_in_tile(first) + offset;
                 primitives[kept % WIDTH] = primitive;
                 kept += usize::from(handles.contains(&primitive));
             }
             len += kept;
         }
-        self.pixels.truncate(len);
-        self.primitives.truncate(len);
+        self.len = len;
     }
 
     /// Adds the primitives that the samples of a pixel see, each once.
     pub(super) fn add_pixel(&mut self, pixel: usize, seen: impl Iterator<Item = Handle>) {
-        let first = self.primitives.len();
+        let first = self.len;
         for primitive in seen {
-            if let Some(known) = self.primitives[first..].iter().position(|&other| other == primitive) {
+            let known = &self.primitives[first..self.len];
+            if let Some(known) = known.iter().position(|&other| other == primitive) {
                 self.weights[first + known] += 1;
             } else {
                 self.add(pixel, primitive, 1);
@@ -121,22 +131,25 @@ impl FragmentList {
     /// Adds a primitive that `samples` (at most 16) samples of a pixel see.
     #[expect(clippy::cast_possible_truncation, reason = "at most 16")]
     pub(super) fn add(&mut self, pixel: usize, primitive: Handle, samples: usize) {
-        self.pixels.push(place_in_tile(pixel));
-        self.weights.push(samples as u8);
-        self.primitives.push(primitive);
+        self.pixels[self.len] = place_in_tile(pixel);
+        self.weights[self.len] = samples as u8;
+        self.primitives[self.len] = primitive;
+        self.len += 1;
     }
 
-    /// Fills the lists up and makes room for the colours.
+    /// Fills the lists up.
     pub(super) fn finish(&mut self) {
-        self.len = self.pixels.len();
-        let padded = self.len.next_multiple_of(WIDTH);
-        if let (Some(&pixel), Some(&primitive)) = (self.pixels.last(), self.primitives.last()) {
-            self.pixels.resize(padded, pixel);
-            self.primitives.resize(padded, primitive);
-        }
-        for plane in &mut self.colors {
-            plane.resize(padded, 0.0);
-        }
+        let Some(last) = self.len.checked_sub(1) else { return };
+        let (pixel, primitive) = (self.pixels[last], self.primitives[last]);
+        let rest = self.len..self.len.next_multiple_of(WIDTH);
+        self.pixels[rest.clone()].fill(pixel);
+        self.primitives[rest].fill(primitive);
+    }
+
+    /// The pixels, filled up.
+    #[inline(always)]
+    pub(super) fn filled(&self) -> &[u16] {
+        &self.pixels[..self.len.next_multiple_of(WIDTH)]
     }
 }
 
@@ -158,7 +171,8 @@ impl<L: Lane, const N: usize, P: FragmentProgram<L, N>> Work for Shade<'_, L, N,
     #[inline(always)]
     fn run(self) {
         let Self { input, list, program, .. } = self;
-        let FragmentList { pixels, primitives, colors: [red, green, blue], .. } = list;
+        let FragmentList { len, pixels, primitives, colors: [red, green, blue], .. } = list;
+        let pixels = &pixels[..len.next_multiple_of(WIDTH)];
         let mut planes = [Plane::default(); PLANES];
         let groups = pixels.chunks_exact(L::LANES).zip(primitives.chunks_exact(L::LANES));
         let colors = red.chunks_exact_mut(L::LANES).zip(green.chunks_exact_mut(L::LANES));
@@ -166,7 +180,7 @@ impl<L: Lane, const N: usize, P: FragmentProgram<L, N>> Work for Shade<'_, L, N,
         for ((pixels, primitives), ((red, green), blue)) in groups.zip(colors) {
             // Kept in memory in between: whole vectors come out of it, and the compiler optimises the two
             // halves by themselves, which it does better than both at once.
-            let varyings = black_box(varyings::<L, N>(input, pixels, primitives, &mut planes));
+            let varyings = black_box(interpolate(input, pixels, primitives, &mut planes));
             let Vec3 { x, y, z } = program(&varyings);
             clamp(x).store(red);
             clamp(y).store(green);
@@ -177,7 +191,7 @@ impl<L: Lane, const N: usize, P: FragmentProgram<L, N>> Work for Shade<'_, L, N,
 
 /// The varyings of one group of fragments, which may belong to several triangles.
 #[inline(always)]
-fn varyings<L: Lane, const N: usize>(
+fn interpolate<L: Lane, const N: usize>(
     input: &ShadeInput<'_>,
     pixels: &[u16],
     primitives: &[Handle],
@@ -191,18 +205,15 @@ fn varyings<L: Lane, const N: usize>(
     let (x0, y0) = (<L::Double as Lane>::splat(x0), <L::Double as Lane>::splat(y0));
     let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
     let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
-    let (first, mut previous) = (primitives[0], 0);
-    for (i, &primitive) in primitives.iter().enumerate() {
-        // Three triangles or more may be interpolated again, which changes nothing.
-        if primitive == previous || (i > 0 && primitive == first) {
-            continue;
-        }
+    let mut lane = Some(0);
+    while let Some(first) = lane {
+        let primitive = primitives[first];
         let plane = &mut planes[primitive as usize % PLANES];
         if plane.primitive != primitive {
             *plane = Plane::of(input, primitive);
         }
         let at = plane.interpolate::<L>(x, y);
-        if i == 0 {
+        if first == 0 {
             result = at;
         } else {
             let mut mask = [false; WIDTH];
@@ -213,9 +224,20 @@ fn varyings<L: Lane, const N: usize>(
                 *result = result.replace(&mask, at);
             }
         }
-        previous = primitive;
+        lane = next_triangle(primitives, first);
     }
     result
+}
+
+/// The first lane after `lane` whose triangle is neither that of the lane before it nor the first one. Of
+/// three or more, one may be met and interpolated again, which changes nothing.
+#[inline(always)]
+fn next_triangle(primitives: &[Handle], lane: usize) -> Option<usize> {
+    if primitives.iter().fold(true, |all, &other| all & (other == primitives[0])) {
+        return None;
+    }
+    let is_new = |&i: &usize| primitives[i] != primitives[i - 1] && primitives[i] != primitives[0];
+    (lane + 1..primitives.len()).find(is_new)
 }
 
 /// Triangles that are kept ready for interpolation: about as many as meet in two rows of a tile.
@@ -269,8 +291,9 @@ impl<const N: usize> Plane<N> {
         let at = |[gx, gy]: [f64; 2]| L::splat_double(gx) * x + L::splat_double(gy) * y;
         let (l1, l2) = (at(self.steps[0]), at(self.steps[1]));
         let l0 = <L::Double as Lane>::splat(1.0) - l1 - l2;
-        // Through memory, because the compiler otherwise mixes their lanes up.
-        let [l0, l1, l2] = black_box([L::narrow(l0), L::narrow(l1), L::narrow(l2)]);
+        // Through memory, because the compiler otherwise mixes their lanes up. Before they are narrowed: it
+        // would write halves, and reading a vector has to wait for halves of it.
+        let (l0, l1, l2) = (L::narrow(black_box(l0)), L::narrow(black_box(l1)), L::narrow(black_box(l2)));
         let w0 = l0 * L::splat(self.r[0]);
         let w1 = l1 * L::splat(self.r[1]);
         let w2 = l2 * L::splat(self.r[2]);
