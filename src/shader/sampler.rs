@@ -5,6 +5,8 @@
 //! in f64: that is what the rounding of u·w - 0.5 can move the weights by. It is exact for
 //! coordinates in 0..=2 where both sides are powers of two, and what is left is 2⁻²¹ (tested).
 
+use std::hint::black_box;
+
 use super::glsl::{Vec3, dot, vec3};
 use crate::{
     cubemap::Cubemap,
@@ -123,9 +125,15 @@ fn mix<L: Lane>(a: Vec3<L>, b: Vec3<L>, f: L) -> Vec3<L> {
 /// The texel in column i and row j of each lane's picture of width `w`, turned from pixels into channels.
 #[inline(always)]
 fn gather<L: Lane>(texels: &[&[[f32; 4]]; WIDTH], w: u32, i: &Places, j: &Places) -> Vec3<L> {
+    let mut places = Wide([0; WIDTH]);
+    for (place, (i, j)) in places.0.iter_mut().zip(i.0.iter().zip(&j.0)) {
+        *place = j * w + i;
+    }
+    // Through memory: computed side by side, then read one by one.
+    let places = black_box(places);
     let mut fetched = [[0.0; 4]; WIDTH];
     for (lane, texel) in fetched.iter_mut().enumerate().take(L::LANES) {
-        *texel = texels[lane][(j.0[lane] * w + i.0[lane]) as usize];
+        *texel = texels[lane][places.0[lane] as usize];
     }
     let channel = |c: usize| L::from_fn(|lane| fetched[lane][c]);
     vec3(channel(0), channel(1), channel(2))
@@ -163,6 +171,8 @@ fn repeat(i: Wide<i32>, n: u32) -> [Places; 2] {
     if first.0.iter().fold(false, |outside, &i| outside | (i >= n)) {
         first = i.each(|i| i.rem_euclid(n.cast_signed()).cast_unsigned());
     }
+    // Through memory, or the compiler goes on with each by itself.
+    let first = black_box(first);
     [first, first.each(|i| if i + 1 == n { 0 } else { i + 1 })]
 }
 
