@@ -37,6 +37,8 @@
 use crate::error::{Error, Kind, Result};
 use crate::math::ln;
 use crate::scene::{Cloth, Damping, Integrator, Sim, Vec3};
+use grid::Pins;
+use springs::Springs;
 
 pub(crate) mod bdf2;
 mod boxes;
@@ -179,6 +181,14 @@ impl Constants {
             }
         }
     }
+}
+
+/// What of a cloth stays the same from step to step, as the solvers need it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model<'a> {
+    pub(crate) springs: &'a Springs,
+    pub(crate) pins: &'a Pins,
+    pub(crate) constants: &'a Constants,
 }
 
 /// The steps a second at which a damping per second means what the report's means.

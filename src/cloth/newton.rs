@@ -7,10 +7,9 @@
 
 use super::conjugate_gradients::{ConjugateGradients, Matrix, add, dot, length};
 use super::forces::Forces;
-use super::grid::Pins;
 use super::springs::Springs;
 use super::stiffness::Stiffness;
-use super::{Constants, Counters, Points, filled};
+use super::{Counters, Model, Points, filled};
 use crate::error::Result;
 
 /// Most rounds in a step.
@@ -57,61 +56,41 @@ impl Newton {
     }
 
     /// Moves the unpinned points from a guess `x` to the solution.
-    pub(crate) fn solve(
-        &mut self,
-        x: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
-        counters: &mut Counters,
-    ) {
-        let mut goal = self.balance(x, springs, pins, constants, counters);
+    pub(crate) fn solve(&mut self, x: &mut Points, model: Model<'_>, counters: &mut Counters) {
+        let mut goal = self.balance(x, model, counters);
         let (mut rounds, mut moved) = (0, f64::INFINITY);
         // A residual that is no number ends it too.
         while rounds < ROUNDS && length(&self.residual) > goal && moved > ROUNDING * length(x) {
             rounds += 1;
-            self.matrix.stiffness.update(x, springs);
+            self.matrix.stiffness.update(x, model.springs);
             let target = (0.5 * goal).max(FORCING * length(&self.residual));
             let Self { matrix, linear, residual, .. } = self;
-            let products = linear.solve(residual, target, matrix, springs, pins) as u64;
-            counters.springs_evaluated += products * springs.len() as u64;
-            goal = self.go(x, springs, pins, constants, counters);
+            let products = linear.solve(residual, target, matrix, model) as u64;
+            counters.springs_evaluated += products * model.springs.len() as u64;
+            goal = self.go(x, model, counters);
             moved = length(&self.linear.solution);
         }
     }
 
     /// Moves the points along the solution of the linear system; the goal where they end.
-    fn go(
-        &mut self,
-        x: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
-        counters: &mut Counters,
-    ) -> f64 {
+    fn go(&mut self, x: &mut Points, model: Model<'_>, counters: &mut Counters) -> f64 {
         let slope = dot(&self.residual, &self.linear.solution);
         let mut part = 1.0;
         add(x, part, &self.linear.solution);
-        let mut goal = self.balance(x, springs, pins, constants, counters);
+        let mut goal = self.balance(x, model, counters);
         let mut halvings = 0;
         while halvings < HALVINGS && dot(&self.residual, &self.linear.solution) < -0.5 * slope {
             halvings += 1;
             part *= 0.5;
             add(x, -part, &self.linear.solution);
-            goal = self.balance(x, springs, pins, constants, counters);
+            goal = self.balance(x, model, counters);
         }
         goal
     }
 
     /// Computes the residual at `x`, in N; how long it may be.
-    fn balance(
-        &mut self,
-        x: &Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
-        counters: &mut Counters,
-    ) -> f64 {
+    fn balance(&mut self, x: &Points, model: Model<'_>, counters: &mut Counters) -> f64 {
+        let Model { springs, pins, constants } = model;
         let weight = constants.weight;
         self.forces.compute(x, springs, weight.into(), counters);
         let (mut squares, forces) = (0.0, self.forces.sum());
