@@ -53,6 +53,7 @@ pub mod ledger;
 pub mod measure;
 pub(crate) mod neighbors;
 mod newton;
+pub(crate) mod pieces;
 mod real;
 pub mod rest;
 pub(crate) mod self_collision;
