@@ -37,6 +37,8 @@
 use crate::error::{Error, Kind, Result};
 use crate::math::ln;
 use crate::scene::{Cloth, Damping, Integrator, Sim, Vec3};
+use grid::Pins;
+use springs::Springs;
 
 pub(crate) mod bdf2;
 mod boxes;
@@ -184,6 +186,14 @@ impl Constants {
     }
 }
 
+/// What of a cloth stays the same from step to step, as the solvers need it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model<'a> {
+    pub(crate) springs: &'a Springs,
+    pub(crate) pins: &'a Pins,
+    pub(crate) constants: &'a Constants,
+}
+
 /// The steps a second at which a damping per second means what the report's means.
 const REPORT_STEPS: f64 = 2700.0;
 
@@ -198,8 +208,11 @@ pub fn damping_rate(percent: f64) -> f64 {
 pub struct Counters {
     /// Steps made.
     pub steps: u64,
-    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed.
+    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed. What
+    /// makes the matrix, once for some tens of products, is not counted.
     pub springs_evaluated: u64,
+    /// Steps of an implicit integrator that left more than `sim.tolerance` of the forces unbalanced.
+    pub unsolved_steps: u64,
     /// Points that the integrator moved on.
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.

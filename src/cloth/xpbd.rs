@@ -14,7 +14,7 @@
 
 use super::grid::{Grid, Pins};
 use super::springs::{Family, Springs};
-use super::{Constants, Counters, Points, filled, len};
+use super::{Counters, Model, Points, filled, len};
 use crate::error::Result;
 
 /// The integrator and its tensions.
@@ -40,11 +40,10 @@ impl Xpbd {
         &mut self,
         x: &mut Points,
         last: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
+        model: Model<'_>,
         counters: &mut Counters,
     ) {
+        let Model { springs, pins, constants } = model;
         for p in pins.free.iter().cloned().flatten() {
             let predicted =
                 x.get(p) + (x.get(p) - last.get(p)) * constants.keep + constants.weight * constants.a2;
