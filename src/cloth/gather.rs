@@ -26,7 +26,7 @@ use crate::error::Result;
 const PAD: usize = 2;
 
 /// Rows of a band of a large cloth: few enough that many threads find work, and enough that
-/// the springs computed twice, those of one row and a half, are few beside them.
+/// the springs computed twice, about as many as a row has, are few beside them.
 const ROWS: usize = 20;
 
 /// One component of what a row's springs do to the points that made them, one array per family.

@@ -23,10 +23,10 @@ pub(crate) struct SelfCollision {
     rule: Rule,
     /// The points by box.
     pub(crate) boxes: Boxes,
-    /// The positions of the members of each box, box after box, each with [`ROOM`] more places.
+    /// Places for the positions of the members of each box, and [`ROOM`] more for each.
     positions: Points,
-    /// Of each box, whether a member moved.
-    moved: Vec<bool>,
+    /// Of each box in which a member moved, the first of its places.
+    moved: Vec<Option<usize>>,
 }
 
 impl SelfCollision {
@@ -43,7 +43,7 @@ impl SelfCollision {
             rule: Rule::new(2.0 * cloth.thickness, f64::from(sim.steps_per_frame)),
             boxes: Boxes::new([bx, by, bx.max(by)], x)?,
             positions: Points::zeros(places)?,
-            moved: filled(most_boxes, false)?,
+            moved: filled(most_boxes, None)?,
         })
     }
 
@@ -64,16 +64,16 @@ impl SelfCollision {
 
     /// Takes over the positions of the boxes in which a member moved.
     fn write_back(&self, x: &mut Points) {
-        for index in (0..self.boxes.count()).filter(|&index| self.moved[index]) {
-            let place = place(&self.boxes, index);
-            for (to, &p) in self.boxes.members(index).iter().enumerate() {
-                x.set(p, self.positions.get(place + to));
+        for (index, moved) in self.moved[..self.boxes.count()].iter().enumerate() {
+            let Some(place) = *moved else { continue };
+            for (at, &p) in (place..).zip(self.boxes.members(index)) {
+                x.set(p, self.positions.get(at));
             }
         }
     }
 }
 
-/// The place of the first member of box `index`.
+/// How many places the boxes before `index` may take.
 fn place(boxes: &Boxes, index: usize) -> usize {
     boxes.start(index) + ROOM * index
 }
@@ -108,7 +108,7 @@ struct Piece<'a> {
     range: Range<usize>,
     first_place: usize,
     positions: [&'a mut [f64]; 3],
-    moved: &'a mut [bool],
+    moved: &'a mut [Option<usize>],
 }
 
 impl Piece<'_> {
@@ -149,14 +149,16 @@ impl Work for EachBox<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { piece: Piece { given, range, first_place, mut positions, moved }, tally } = self;
+        let mut next = 0;
         for (index, moved) in range.zip(moved) {
             let members = given.boxes.members(index);
-            let start = place(given.boxes, index) - first_place;
-            let places =
-                positions.each_mut().map(|component| &mut component[start..][..members.len() + ROOM]);
-            let mut one = OneBox::gather(members, given.rule, given.x, places);
+            let places = next..next + members.len() + ROOM;
+            let positions = positions.each_mut().map(|component| &mut component[places.clone()]);
+            let mut one = OneBox::gather(members, given.rule, given.x, positions);
             let moves = if one.any_close() { one.move_apart(&given.pins.pinned) } else { 0 };
-            *moved = moves > 0;
+            *moved = (moves > 0).then_some(first_place + next);
+            // A box that stays as it is leaves its places, which are at hand, to the next.
+            next = if moves > 0 { places.end } else { next };
             tally.moves += moves;
             tally.pairs += (members.len() * (members.len() - 1) / 2) as u64;
         }
