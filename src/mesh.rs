@@ -59,6 +59,10 @@ impl Mesh {
 
     /// The cloth at `points`: per cell with corners A (x, y), B (x+1, y), C (x, y+1), D (x+1, y+1)
     /// the triangles (A, C, B) and (B, C, D).
+    ///
+    /// # Panics
+    /// It may when a side of the cloth has fewer than two points, or there are not as many `points` as the
+    /// cloth has; the cloth of a scene that was loaded has two a side or more.
     pub fn cloth(cloth: &Cloth, points: &Points, needs: Needs) -> Self {
         let (w, h) = (cloth.num_width_points, cloth.num_height_points);
         let normals_of = |read: bool, f: &(dyn Fn(usize, Vec3) -> Vec3 + Sync)| {
@@ -79,6 +83,9 @@ impl Mesh {
 
     /// The unit ball of a sphere's resolution: (lat + 1)(lon + 1) vertices, latitude outer.
     /// With v = i/lat and u = j/lon, λ = πv and θ as in `turn`.
+    ///
+    /// # Panics
+    /// When there are no longitudes; the spheres of a scene that was loaded have some.
     pub fn sphere(sphere: &Sphere, needs: Needs) -> Self {
         let [lat, lon] = sphere.resolution;
         let mut mesh = Self::default();

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use drape::error::{Error, Kind, Result};
 use drape::scene::Overrides;
@@ -40,7 +41,17 @@ fn source(folder: &Path) -> Source {
 /// A study with the cells in `folder`, and how many runs were made and kept.
 fn run(source: &Source, extent: &Extent, folder: &Path) -> (Study, [u64; 2]) {
     let store = Store::new(&folder.join("cells")).unwrap();
-    let study = study::run(source, &TextureSource::BuiltIn, extent, &store, &|_| Ok(())).unwrap();
+    let told = AtomicU64::new(0);
+    let watch = |steps: u32| {
+        told.fetch_add(steps.into(), Ordering::Relaxed);
+        Ok(())
+    };
+    let study = study::run(source, &TextureSource::BuiltIn, extent, &store, &watch).unwrap();
+    // Also of what is kept, was given up, or is not needed: progress reaches the end. Beyond it are only
+    // runs of the reference.
+    let beyond = told.into_inner().checked_sub(study::steps(source, extent).unwrap());
+    let smallest = u64::from(study.panels[0].panel.finest / 10 * extent.last());
+    assert_eq!(beyond.map(|steps| steps % smallest), Some(0), "{beyond:?} of {smallest}");
     (study, store.counts())
 }
 

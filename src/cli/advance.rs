@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use super::progress::Progress;
-use crate::cloth::Points;
 use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
+use crate::cloth::{Counters, Points};
 use crate::error::{Error, Kind, Result};
 use crate::scene::{Integrator, Scene};
 use crate::simulation::{Simulation, Unresolved};
@@ -81,17 +81,16 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
 
 /// The error of a cloth that vibrates too fast even at rest.
 pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
-    let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = *stability;
+    let Stability { mass, dt, limit, omega_rest, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
         "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
-    let fewest = stability.fewest_steps(omega_rest);
-    let safe = stability.fewest_steps(omega_safe);
+    let [fewest, safe] = [stability.fewest_steps_rest(), stability.fewest_steps_worst()];
     let softer = rounded_down(ks * (limit / (dt * omega_rest)) * (limit / (dt * omega_rest)));
     let help = format!(
-        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; {safe} hold in every \
-         configuration: --set sim.steps_per_frame={safe} (damping per step acts that much more often); \
+        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; {safe} hold at \
+         worst: --set sim.steps_per_frame={safe} (damping per step acts that much more often); \
          --allow-unstable runs on"
     );
     Error::new(Kind::Unstable, message).with_help(help)
@@ -99,13 +98,14 @@ pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
 
 /// The warning for a cloth that is stable at rest but perhaps not when it is deformed.
 fn possible(stability: &Stability, steps: u32) -> String {
-    let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+    let Stability { dt, limit_worst, omega_rest, omega_safe, .. } = *stability;
+    let undamped = if limit_worst < stability.limit { " without damping" } else { "" };
     format!(
-        "the cloth may become unstable when it is deformed: dt·ω is {:.3} at rest but up to {:.3}, and only below \
-         {limit:.3} is stable; steps_per_frame {} instead of {steps} is stable in every configuration",
+        "the cloth may become unstable in motion: dt·ω is {:.3} at rest but up to {:.3} at worst, and only below \
+         {limit_worst:.3} is it stable{undamped}; steps_per_frame {} instead of {steps} is stable at worst",
         dt * omega_rest,
         dt * omega_safe,
-        stability.fewest_steps(omega_safe),
+        stability.fewest_steps_worst(),
     )
 }
 
@@ -180,6 +180,17 @@ pub(super) fn advance_until(
     Ok(Moved { elapsed, restless })
 }
 
+/// Warns of steps that an implicit integrator did not solve.
+pub(super) fn warn_of_unsolved(simulation: &Simulation, session: &Session) {
+    let Counters { steps, unsolved_steps, .. } = simulation.counters();
+    if unsolved_steps > 0 {
+        session.ui.note(&format!(
+            "warning: {unsolved_steps} of {steps} steps left more than sim.tolerance of the forces unbalanced\n  \
+             = help: raise steps_per_frame, or sim.tolerance if so much is good enough"
+        ));
+    }
+}
+
 /// The error of a cloth that still moves at the end.
 fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Error {
     let does = motion.map_or_else(String::new, |motion| {
@@ -215,6 +226,7 @@ fn advance_while(
     }
     drop(progress);
     session.signals.check()?;
+    warn_of_unsolved(simulation, session);
     let elapsed = started.elapsed();
     session.ui.remark(&format!("simulated {} frames in {:.3} s", simulation.frame(), elapsed.as_secs_f64()));
     Ok(elapsed)

@@ -6,8 +6,8 @@ use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
 
 use super::advance::start;
-use super::film::Film;
-use super::look::Look;
+use super::film::{Drawn, Film};
+use super::look::{Look, nothing_seen};
 use super::moments::{Frames, Moments};
 use super::scene::{Leniency, SceneArgs, frame_at, seconds};
 use super::target::{Marks, Target};
@@ -81,9 +81,13 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
             let simulation = start(&scene, moments.frame(last), allowed, session)?;
             film.shoot(last, simulation, session).map_err(|e| target.stopped(e))?
         }
-        None => 0,
+        None => Drawn { pictures: 0, seen: true },
     };
-    args.finish(format, &moments, moments.count() - drawn, session)
+    args.finish(format, &moments, moments.count() - drawn.pictures, session)?;
+    if !drawn.seen {
+        session.ui.note(&nothing_seen("the pictures"));
+    }
+    Ok(())
 }
 
 impl Args {

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 
 use super::Session;
+use super::advance::warn_of_unsolved;
 use super::moments::Moments;
 use super::progress::Progress;
 use super::target::{Marks, Target};
@@ -31,6 +32,14 @@ pub(super) struct Film<'a> {
     pub(super) files: Option<(&'a Pattern, Marks)>,
 }
 
+/// What was drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Drawn {
+    pub(super) pictures: u64,
+    /// Whether anything but the background is seen in one of them.
+    pub(super) seen: bool,
+}
+
 /// Something that belongs to picture number `k`.
 type Numbered<T> = (u64, T);
 
@@ -46,9 +55,8 @@ impl Film<'_> {
         Ok(None)
     }
 
-    /// Simulates, draws and encodes the pictures up to number `last` that are not there yet. Returns
-    /// how many.
-    pub(super) fn shoot(&self, last: u64, simulation: Simulation, session: &Session) -> Result<u64> {
+    /// Simulates, draws and encodes the pictures up to number `last` that are not there yet.
+    pub(super) fn shoot(&self, last: u64, simulation: Simulation, session: &Session) -> Result<Drawn> {
         let file = self.target.open(self.format, self.moments.count())?;
         self.make_folder()?;
         thread::scope(|scope| {
@@ -100,14 +108,22 @@ impl Film<'_> {
                 break;
             }
         }
+        warn_of_unsolved(&simulation, session);
         Ok(())
     }
 
-    /// Draws each state; how many pictures were taken.
-    fn draw(&self, states: Receiver<Numbered<Points>>, pictures: &SyncSender<Numbered<Picture>>) -> u64 {
-        let draw = |(k, points): Numbered<Points>| (k, self.renderer.draw(&points, &self.options));
-        let sent = states.into_iter().map(|state| pictures.send(draw(state)).is_ok());
-        sent.take_while(|&sent| sent).count() as u64
+    /// Draws each state and sends on the picture; ends early when nobody takes them any more.
+    fn draw(&self, states: Receiver<Numbered<Points>>, pictures: &SyncSender<Numbered<Picture>>) -> Drawn {
+        let mut drawn = Drawn::default();
+        for (k, points) in states {
+            let picture = self.renderer.draw(&points, &self.options);
+            drawn.seen |= picture.stats.fragments > 0;
+            if pictures.send((k, picture)).is_err() {
+                break;
+            }
+            drawn.pictures += 1;
+        }
+        drawn
     }
 
     /// Encodes each picture; the file, if it is one for all.

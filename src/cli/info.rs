@@ -156,8 +156,8 @@ impl Bound {
             dt_omega_rest: dt * omega_rest,
             dt_omega_worst: dt * omega_safe,
             dt_omega_limit: limit,
-            fewest_steps_rest: stability.fewest_steps(omega_rest),
-            fewest_steps_worst: stability.fewest_steps(omega_safe),
+            fewest_steps_rest: stability.fewest_steps_rest(),
+            fewest_steps_worst: stability.fewest_steps_worst(),
         }
     }
 

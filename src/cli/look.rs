@@ -37,6 +37,14 @@ pub(super) struct Look {
     textures: Option<PathBuf>,
 }
 
+/// What is told where `pictures` show the background alone.
+pub(super) fn nothing_seen(pictures: &str) -> String {
+    format!(
+        "warning: nothing is seen in {pictures}: no object is where the camera looks\n  \
+         = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time"
+    )
+}
+
 impl Look {
     /// Writes the changes into `scene`.
     pub(super) fn apply(&self, scene: &mut Scene) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::advance::{advance_until, start};
-use super::look::Look;
+use super::look::{Look, nothing_seen};
 use super::scene::{Moment, SceneArgs};
 use super::{Session, bench, outputs};
 use crate::error::{Error, Kind, Result};
@@ -43,10 +43,6 @@ pub(super) struct Args {
           conflicts_with_all = ["picture", "depth", "ids", "stats"])]
     bench: Option<u32>,
 }
-
-/// What is told of a picture that shows the background alone.
-const NOTHING_SEEN: &str = "warning: nothing is seen in the picture: no object is where the camera looks\n  \
-     = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time";
 
 /// What was drawn.
 #[derive(Serialize)]
@@ -134,7 +130,7 @@ impl Args {
         let (frame, time) = (simulation.frame(), simulation.time());
         session.ui.note(&format!("{}: {width} x {height}, frame {frame}, {time} s", path.display()));
         if stats.fragments == 0 {
-            session.ui.note(NOTHING_SEEN);
+            session.ui.note(&nothing_seen("the picture"));
         }
         if !self.stats && !session.ui.json {
             return Ok(());

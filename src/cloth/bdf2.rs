@@ -5,14 +5,14 @@
 //! Damping per second is the drag `-c m v'` at the end of the step. Damping per step multiplies
 //! velocities by `keep` each step: v by keep, v_last, which is a step older, by keep².
 //!
-//! A correction of the position has no place in the formula's memory. So a point that
+//! The two-step formula cannot take in a corrected position. So a point that
 //! collisions, the stretch limit or the user moved, and every point at the start, takes its next
 //! step by implicit Euler with the velocity `(x - last) / dt`, and starts a new memory with it.
+//! Beside a point that remembers, that step does not conserve their momentum.
 
-use super::grid::Pins;
 use super::newton::Newton;
 use super::springs::Springs;
-use super::{Constants, Counters, Points, damping_rate, filled};
+use super::{Constants, Counters, Model, Points, damping_rate, filled};
 use crate::error::Result;
 use crate::scene::{Cloth, Damping, Sim, Vec3};
 
@@ -62,16 +62,20 @@ impl Bdf2 {
         })
     }
 
+    /// Lets every point begin anew.
+    pub(crate) fn forget(&mut self) {
+        self.memory[2].x.fill(f64::NAN);
+    }
+
     /// Moves every unpinned point on by one step.
     pub(crate) fn advance(
         &mut self,
         x: &mut Points,
         last: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
+        model: Model<'_>,
         counters: &mut Counters,
     ) {
+        let Model { pins, constants, .. } = model;
         for p in pins.free.iter().cloned().flatten() {
             let (now, moved) = (x.get(p), x.get(p) - last.get(p));
             self.remembers[p] = now == self.memory[2].get(p);
@@ -83,7 +87,7 @@ impl Bdf2 {
             last.set(p, now);
             x.set(p, now + moved);
         }
-        self.newton.solve(x, springs, pins, constants, counters);
+        self.newton.solve(x, model, counters);
         counters.points_advanced += pins.free_points();
         for p in pins.free.iter().cloned().flatten() {
             self.remember(p, x.get(p), constants);

@@ -2,10 +2,8 @@
 //! for `(inertia + stiffness) s = r`. Every sum has a fixed order, so the bits are the same
 //! wherever it runs.
 
-use super::Points;
-use super::grid::Pins;
-use super::springs::Springs;
 use super::stiffness::Stiffness;
+use super::{Model, Points};
 use crate::error::Result;
 
 /// Partial sums of a dot product.
@@ -55,8 +53,7 @@ impl ConjugateGradients {
         right: &Points,
         target: f64,
         matrix: &mut Matrix,
-        springs: &Springs,
-        pins: &Pins,
+        model: Model<'_>,
     ) -> usize {
         self.start(right, matrix);
         let mut descent = self.residual_times_jacobi();
@@ -64,7 +61,7 @@ impl ConjugateGradients {
         // A residual that is no number ends it too.
         while rounds < 3 * right.len() && length(&self.residual) > target {
             rounds += 1;
-            self.multiply(matrix, springs, pins);
+            self.multiply(matrix, model);
             let step = descent / dot(&self.direction, &self.product);
             add(&mut self.solution, step, &self.direction);
             add(&mut self.residual, -step, &self.product);
@@ -90,12 +87,12 @@ impl ConjugateGradients {
     }
 
     /// The matrix times the direction; 0 for pinned points.
-    fn multiply(&mut self, matrix: &mut Matrix, springs: &Springs, pins: &Pins) {
+    fn multiply(&mut self, matrix: &mut Matrix, model: Model<'_>) {
         let Matrix { inertia, stiffness } = matrix;
-        let resisted = stiffness.resist(&self.direction, springs).components();
+        let resisted = stiffness.resist(&self.direction, model.springs).components();
         let product = self.product.components_mut().into_iter();
         for ((product, direction), resisted) in product.zip(self.direction.components()).zip(resisted) {
-            for run in pins.free.iter().cloned() {
+            for run in model.pins.free.iter().cloned() {
                 for p in run {
                     product[p] = inertia[p] * direction[p] - resisted[p];
                 }

@@ -4,10 +4,9 @@
 //! The velocity before the step is `(x - last) / dt` less what damping takes, as for Verlet's
 //! scheme. So it holds what collisions and the stretch limit did to the position.
 
-use super::grid::Pins;
 use super::newton::Newton;
 use super::springs::Springs;
-use super::{Constants, Counters, Points};
+use super::{Counters, Model, Points};
 use crate::error::Result;
 
 /// The integrator.
@@ -30,11 +29,10 @@ impl ImplicitEuler {
         &mut self,
         x: &mut Points,
         last: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
+        model: Model<'_>,
         counters: &mut Counters,
     ) {
+        let Model { pins, constants, .. } = model;
         for p in pins.free.iter().cloned().flatten() {
             let (now, moved) = (x.get(p), x.get(p) - last.get(p));
             self.newton.target.set(p, now + moved * constants.keep);
@@ -43,7 +41,7 @@ impl ImplicitEuler {
             // The guess: it goes on as it went.
             x.set(p, now + moved);
         }
-        self.newton.solve(x, springs, pins, constants, counters);
+        self.newton.solve(x, model, counters);
         counters.points_advanced += pins.free_points();
     }
 }

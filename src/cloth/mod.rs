@@ -7,16 +7,16 @@
 //!
 //! Other integrators ([`crate::scene::Integrator`]) take the place of Verlet's scheme, on the same
 //! springs and before the same other phases. For each of them the velocity of a point between two
-//! steps is `(x - last) / dt`, with `last` where it was one step ago before the phases, so
-//! that collisions and the stretch limit change velocities as they do under Verlet's scheme.
+//! steps is `(x - last) / dt`: `x` after the phases of this step, `last` after those of the step
+//! before, so that collisions and the stretch limit change velocities as under Verlet's scheme.
 //!
 //! Point (i, j) of a grid of `W` × `H` points has index `j * W + i`. Positions are in metres.
 //!
 //! # What this method does not promise
-//! Its phases change positions behind the back of the integrator. So these do **not** hold, and
-//! no test asks for them:
+//! Its phases move points without the integrator knowing. So these do **not** hold, and no test
+//! asks for them:
 //! - momentum, once two points collide (the correction is one-sided and divided by the steps);
-//! - angular momentum, once the stretch limit acts (it moves points without their velocity's arm);
+//! - angular momentum, once the stretch limit acts (it moves the point at which a velocity acts);
 //! - energy that only falls, once objects or self-collision act;
 //! - strain of at most 10 % after the stretch limit (one pass leaves 13 % on the stock scenes);
 //! - a distance of 2 · thickness between points (pairs across a box border are never seen);
@@ -26,17 +26,21 @@
 //! - time reversal with damping, contact or the stretch limit;
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
-//! Each has a cure that a scene can ask for: `sim.start`, `sim.damping`, `sim.self_collision` and
-//! `sim.contact`. The defaults are the published method's.
+//! Some have a cure that a scene can ask for: `sim.damping` for the number of steps,
+//! `sim.self_collision` for distances, `sim.contact` for points inside objects, more
+//! `sim.stretch_passes` for strain. `sim.start` makes the first step second order. The defaults are
+//! the published method's.
 //!
 //! # Why the sign of a zero never shows
-//! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
+//! `x` and `last` are never -0.0: no scene starts a point there, and every update is `x + something` or
 //! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 use crate::error::{Error, Kind, Result};
 use crate::math::ln;
 use crate::scene::{Cloth, Damping, Integrator, Sim, Vec3};
+use grid::Pins;
+use springs::Springs;
 
 pub(crate) mod bdf2;
 mod boxes;
@@ -53,10 +57,13 @@ pub mod ledger;
 pub mod measure;
 pub(crate) mod neighbors;
 mod newton;
+mod one_box;
+pub(crate) mod pieces;
 mod real;
 pub mod rest;
 pub(crate) mod self_collision;
 pub(crate) mod single;
+mod sorted;
 pub mod springs;
 pub mod stability;
 mod stiffness;
@@ -143,10 +150,10 @@ pub struct Constants {
     pub mass: f64,
     /// Step, in seconds: `1 / fps / T`.
     pub dt: f64,
-    /// What a force of 1 N moves a point in one step, in metres: `dt² / mass`, and with damping
+    /// Displacement by a force in one step, in m/N: `dt² / mass`, and with damping
     /// per second at the rate c that over `1 + c dt / 2` for Verlet, over `1 + c dt` for others.
     pub a2: f64,
-    /// Part of a point's displacement that a step keeps: `1 - damping / 100`, and with damping per
+    /// What a step multiplies a point's displacement by: `1 - damping / 100`, and with damping per
     /// second `(1 - c dt / 2) / (1 + c dt / 2)` for Verlet, `1 / (1 + c dt)` for others.
     pub keep: f64,
     /// Weight of a point, in N.
@@ -181,6 +188,14 @@ impl Constants {
     }
 }
 
+/// The parts of a cloth that stay the same over a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model<'a> {
+    pub(crate) springs: &'a Springs,
+    pub(crate) pins: &'a Pins,
+    pub(crate) constants: &'a Constants,
+}
+
 /// The steps a second at which a damping per second means what the report's means.
 const REPORT_STEPS: f64 = 2700.0;
 
@@ -195,8 +210,11 @@ pub fn damping_rate(percent: f64) -> f64 {
 pub struct Counters {
     /// Steps made.
     pub steps: u64,
-    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed.
+    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed. What
+    /// makes the matrix, once for some tens of products, is not counted.
     pub springs_evaluated: u64,
+    /// Steps of an implicit integrator that left more than `sim.tolerance` of the forces unbalanced.
+    pub unsolved_steps: u64,
     /// Points that the integrator moved on.
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.

@@ -7,14 +7,14 @@
 //! becomes `ΔF = (k C - F) / (1 + k Σ a2)`, where `a2 = dt² / m` moves a point by `a2 ΔF`; it holds
 //! for k = 0 too, and with damping through `a2`. One spring alone obeys implicit Euler exactly.
 //! Several do not: even converged, the directions in which they pull are those of earlier passes.
-//! Too few passes leave energy in the springs that nothing gave them: stable, but wrong.
+//! With too few passes the springs gain energy from nowhere: stable, but wrong.
 //!
 //! Velocity is what it is for Verlet's scheme, `(x - last) / dt`, and so holds what the
 //! collisions and the stretch limit of the step before did to the position.
 
 use super::grid::{Grid, Pins};
 use super::springs::{Family, Springs};
-use super::{Constants, Counters, Points, filled, len};
+use super::{Counters, Model, Points, filled, len};
 use crate::error::Result;
 
 /// The integrator and its tensions.
@@ -40,11 +40,10 @@ impl Xpbd {
         &mut self,
         x: &mut Points,
         last: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        constants: &Constants,
+        model: Model<'_>,
         counters: &mut Counters,
     ) {
+        let Model { springs, pins, constants } = model;
         for p in pins.free.iter().cloned().flatten() {
             let predicted =
                 x.get(p) + (x.get(p) - last.get(p)) * constants.keep + constants.weight * constants.a2;

@@ -126,7 +126,7 @@ impl Renderer {
         let objects = Object::all(&self.scene, points, options.springs);
         let call = |object| match options.shading {
             Shading::F32 => self.draw_call::<Wide<f32>>(object),
-            Shading::F64 => self.draw_call::<f64>(object),
+            Shading::F64 => self.draw_call::<Wide<f64>>(object),
         };
         let calls: Vec<_> = objects.iter().map(call).collect();
         raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)

@@ -8,7 +8,7 @@ use crate::cloth::implicit_euler::ImplicitEuler;
 use crate::cloth::single::Single;
 use crate::cloth::springs::Springs;
 use crate::cloth::xpbd::Xpbd;
-use crate::cloth::{Constants, Counters, Points, verlet};
+use crate::cloth::{Constants, Counters, Model, Points, verlet};
 use crate::error::Result;
 use crate::scene::{Cloth, Integrator, Precision, Sim, Vec3};
 
@@ -59,6 +59,13 @@ impl Scheme {
         }
     }
 
+    /// Forgets what it remembers, because the points were put elsewhere or stopped.
+    pub(super) fn forget(&mut self) {
+        if let Self::Bdf2(bdf2) = self {
+            bdf2.forget();
+        }
+    }
+
     /// What damping changed of the displacement of point `p`, which moved by `before` and then by
     /// `moved`, and the force on it that explains the rest, in N.
     pub(super) fn split(&self, p: usize, before: Vec3, moved: Vec3, constants: &Constants) -> [Vec3; 2] {
@@ -77,6 +84,7 @@ impl State {
     /// Moves every free point on by one step of the integrator.
     pub(super) fn advance(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
         let Self { constants, pins, springs, x, last, scheme, .. } = self;
+        let model = Model { springs, pins, constants };
         match scheme {
             Scheme::Verlet(forces) => {
                 forces.compute(x, springs, constants.weight.into(), counters);
@@ -91,15 +99,15 @@ impl State {
                 stopwatch.lap(|timings| &mut timings.verlet);
             }
             Scheme::Xpbd(xpbd) => {
-                xpbd.advance(x, last, springs, pins, constants, counters);
+                xpbd.advance(x, last, model, counters);
                 stopwatch.lap(|timings| &mut timings.solver);
             }
             Scheme::ImplicitEuler(euler) => {
-                euler.advance(x, last, springs, pins, constants, counters);
+                euler.advance(x, last, model, counters);
                 stopwatch.lap(|timings| &mut timings.solver);
             }
             Scheme::Bdf2(bdf2) => {
-                bdf2.advance(x, last, springs, pins, constants, counters);
+                bdf2.advance(x, last, model, counters);
                 stopwatch.lap(|timings| &mut timings.solver);
             }
         }

@@ -19,7 +19,7 @@ use crate::texture_source::TextureSource;
 use hull::{Advice, advice, hull};
 use matrix::{Extent, Panel, Source, panels, run_name};
 use pictures::Pictures;
-use reference::{COMPARED, DRAWN, Reference, converge};
+use reference::{COMPARED, DRAWN, RUNGS, Reference, converge};
 use runs::{Measured, Outcome};
 use store::Store;
 
@@ -48,7 +48,7 @@ pub struct PanelStudy {
     pub cells: Vec<Measured>,
 }
 
-/// How many steps [`run`] tells `watch` of, but for what the references need beyond their first runs.
+/// How many steps [`run`] tells `watch` of, but for what the references need beyond their first five runs.
 ///
 /// # Errors
 /// As [`matrix::panels`].
@@ -57,7 +57,7 @@ pub fn steps(source: &Source, extent: &Extent) -> Result<u64> {
     let tenths = |rate: u32| u64::from(rate / 10 * extent.last());
     let of = |panel: &Panel| {
         let cells: u64 = panel.cells.iter().map(|cell| tenths(cell.rate)).sum();
-        cells * repeats + if panel.cells.is_empty() { 0 } else { 31 * tenths(panel.finest) }
+        cells * repeats + if panel.cells.is_empty() { 0 } else { u64::from(RUNGS) * tenths(panel.finest) }
     };
     Ok(panels(source, extent)?.iter().map(of).sum())
 }

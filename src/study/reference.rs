@@ -19,20 +19,23 @@ use super::trajectory::{self, Limits, Moment, Trajectory};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
 
-/// The part of an error that the floor may be if the error is drawn.
+/// An error is drawn if the floor is at most this part of it.
 pub(super) const DRAWN: f64 = 0.1;
 
-/// The part of most errors that the floor may be at a moment that is compared.
+/// A moment is compared if the floor is at most this part of most errors.
 pub(super) const COMPARED: f64 = 0.01;
+
+/// Runs that [`converge`] tells of, as multiples of the steps of the first: as many as five runs make.
+pub(super) const RUNGS: u32 = 1 + 2 + 4 + 8 + 16;
 
 /// The self-converged answer of one panel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Reference {
-    /// Steps per second of the last two runs.
+    /// Steps per second of the two runs that agree best.
     pub rates: [u32; 2],
-    /// How far the last two runs differ at each moment.
+    /// How far the two differ at each moment.
     pub floor: Vec<Difference>,
-    /// The last run.
+    /// The one of them with the smaller step.
     #[serde(skip)]
     pub moments: Vec<Moment>,
 }
@@ -85,18 +88,20 @@ pub fn converge(
 ) -> Result<Reference> {
     let rung = |times: u32| rung(source, panel, times, extent, store, watch);
     let first = rung(1)?;
-    let (mut now, mut times) = (rung(2)?, 2);
+    let (mut now, mut times, mut made) = (rung(2)?, 2, 1 + 2);
     let mut floor = differences(&first.moments, &now.moments);
     while !is_converged(&differences(&first.moments, &now.moments), &floor)
         && now.springs * 0.2 * f64::from(extent.last()) <= extent.most_reference
     {
         let next = rung(2 * times)?;
+        made += 2 * times;
         let closer = differences(&now.moments, &next.moments);
         if !is_closer(&closer, &floor) {
             break;
         }
         (now, times, floor) = (next, 2 * times, closer);
     }
+    watch(panel.finest / 10 * extent.last() * RUNGS.saturating_sub(made))?;
     if now.moments.len() < extent.tenths.len() {
         return Err(Error::new(Kind::Unstable, "the reference is lost even with the smallest step")
             .with_help("study a scene that is stable: see `drape info`"));
@@ -130,10 +135,17 @@ fn rung(
     let scene = source.scene(&sets)?;
     let key = key("rung", &(&scene, &extent.tenths));
     let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_reference };
-    store.get_or(key, || trajectory::run(&scene, rate, limits, watch))
+    if let Some(kept) = store.get(key) {
+        store.note_found();
+        watch(rate / 10 * extent.last())?;
+        return Ok(kept);
+    }
+    let run = trajectory::run(&scene, rate, limits, watch)?;
+    store.put(key, &run)?;
+    Ok(run)
 }
 
-/// A name for what `kind` of result depends on `what`: its own text, in hash.
+/// What a result of a `kind` is kept under: a hash of `what` it depends on and of the version.
 pub(super) fn key(kind: &str, what: &impl std::fmt::Debug) -> u64 {
     let mut hash = StateHash::default();
     hash.write(format!("{} {kind} {what:?}", env!("CARGO_PKG_VERSION")).as_bytes());

@@ -1,5 +1,6 @@
 //! Finished results, one file each, named by what they depend on: a study that was stopped goes on
-//! where it was, and one whose scene or matrix has changed finds nothing that is out of date.
+//! where it was, and one whose scene, matrix or textures have changed, or the version of the program,
+//! finds nothing that is out of date. Times are those of the machine as it was then.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,24 +37,6 @@ impl Store {
         [&self.made, &self.found].map(|count| count.load(Ordering::Relaxed))
     }
 
-    /// The result called `key`: the one that is kept, else that of `run`, which is then kept.
-    ///
-    /// # Errors
-    /// Those of `run`, and [`Kind::Io`] when the result cannot be written.
-    pub(super) fn get_or<T: Serialize + DeserializeOwned>(
-        &self,
-        key: u64,
-        run: impl FnOnce() -> Result<T>,
-    ) -> Result<T> {
-        if let Some(kept) = self.get(key) {
-            self.found.fetch_add(1, Ordering::Relaxed);
-            return Ok(kept);
-        }
-        let result = run()?;
-        self.put(key, &result)?;
-        Ok(result)
-    }
-
     /// The result called `key`, if a readable one is kept.
     pub(super) fn get<T: DeserializeOwned>(&self, key: u64) -> Option<T> {
         serde_json::from_slice(&fs::read(self.path(key)).ok()?).ok()
@@ -65,6 +48,9 @@ impl Store {
     }
 
     /// Keeps a result that was just made.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when it cannot be written.
     pub(super) fn put(&self, key: u64, result: &impl Serialize) -> Result<()> {
         self.made.fetch_add(1, Ordering::Relaxed);
         let text = serde_json::to_string(result)
@@ -82,15 +68,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_result_is_made_once_and_a_broken_file_is_no_result() {
+    fn a_result_is_kept_and_a_broken_file_is_no_result() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(&folder.path().join("cells")).unwrap();
-        let made = |value: f64| store.get_or(7, || Ok(value)).unwrap();
-        assert_eq!([made(0.1), made(0.2)], [0.1, 0.1]);
-        assert_eq!(store.counts(), [1, 1]);
+        store.put(7, &0.1).unwrap();
+        assert_eq!([store.get::<f64>(7), store.get(8)], [Some(0.1), None]);
         fs::write(store.path(7), "{").unwrap();
-        assert_eq!(made(0.3), 0.3);
-        assert_eq!(store.counts(), [2, 1]);
-        assert_eq!(store.get::<f64>(8), None);
+        assert_eq!(store.get::<f64>(7), None);
+        store.put(7, &0.3).unwrap();
+        store.note_found();
+        assert_eq!((store.get(7), store.counts()), (Some(0.3), [2, 1]));
     }
 }

@@ -20,7 +20,8 @@ const FIRST: f64 = 2.0;
 pub struct Trajectory {
     /// The moments; those after the cloth was lost or the run given up are absent.
     pub moments: Vec<Moment>,
-    /// Springs that were visited, to compute a force or to limit a stretch, per simulated second.
+    /// Springs that were visited per simulated second: to compute a force or a product with the
+    /// stiffness matrix, or to limit a stretch.
     pub springs: f64,
     /// Wall time per simulated second, in seconds.
     pub wall: f64,
@@ -43,7 +44,7 @@ pub struct Moment {
     pub stretch: f64,
 }
 
-/// How far and how dear a run may be.
+/// How long a run is, and what it may cost.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
     /// When it is looked at, in tenths of a second, ascending.
@@ -54,7 +55,7 @@ pub struct Limits<'a> {
 }
 
 /// Runs `scene` at `rate` steps per second, a multiple of 10. `watch` is told the steps that were made
-/// since it was last called, and can end the run.
+/// since it was last called, in the end those of a whole run, and can end the run.
 ///
 /// # Errors
 /// Those of [`Simulation::new`] and of `watch`.
@@ -64,7 +65,8 @@ pub fn run(
     limits: Limits<'_>,
     watch: &dyn Fn(u32) -> Result<()>,
 ) -> Result<Trajectory> {
-    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, watch };
+    let left = limits.tenths.last().map_or(0, |last| rate / 10 * last);
+    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, left, watch };
     run.simulation.allow_unstable();
     let mut probe = Probe::new(scene)?;
     let (mut moments, mut given_up, mut done) = (Vec::new(), false, 0);
@@ -83,6 +85,7 @@ pub fn run(
             None => break,
         }
     }
+    watch(run.left)?;
     let simulated = run.simulation.steps().max(1) as f64 / f64::from(rate);
     let wall = run.elapsed.as_secs_f64() / simulated;
     Ok(Trajectory { moments, springs: springs(&run.simulation) / simulated, wall, given_up })
@@ -99,6 +102,8 @@ fn springs(simulation: &Simulation) -> f64 {
 struct Run<'a> {
     simulation: Simulation,
     elapsed: Duration,
+    /// Steps that `watch` was not told of yet.
+    left: u32,
     watch: &'a dyn Fn(u32) -> Result<()>,
 }
 
@@ -115,6 +120,7 @@ impl Run<'_> {
             (0..some).for_each(|_| self.simulation.step());
             self.elapsed += started.elapsed();
             left -= some;
+            self.left -= some;
             (self.watch)(some)?;
         }
         Ok(true)

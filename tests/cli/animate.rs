@@ -34,6 +34,16 @@ fn animate(scratch: &Scratch, out: &str, more: &[&str]) -> Run {
     run
 }
 
+#[test]
+fn pictures_of_the_background_alone_are_warned_of() {
+    let scratch = Scratch::new();
+    let said = |more: &[&str]| animate(&scratch, "a.gif", &[&["--frames", "0..2"], more].concat()).stderr;
+    let away = ["--set", "camera.target=[50,0,0]"];
+    assert!(said(&away).contains("warning: nothing is seen in the pictures"), "{}", said(&away));
+    assert_eq!(said(&[&away[..], &["-q"]].concat()), "");
+    assert!(!said(&[]).contains("warning"), "{}", said(&[]));
+}
+
 fn paste(canvas: &mut Rgb, rgb: &[u8], [left, top, width]: [usize; 3]) {
     for (y, row) in rgb.chunks(3 * width).enumerate() {
         let at = 3 * ((top + y) * 40 + left);
