@@ -2,14 +2,16 @@
 //! the three lines that theory draws.
 //!
 //! The lines are `steps a second = ω / limit` with ω² from 8 ks/m (the fastest vibration of the
-//! lattice at rest), 12 ks/m (the most in any configuration) and 17.6 ks/m (Gershgorin's circles,
+//! lattice at rest), 12 ks/m (at worst: the most in any shape) and 17.6 ks/m (Gershgorin's circles,
 //! for which nothing but the stiffness that meets in a point is known); `src/cloth/stability.rs`
 //! derives the first two and the limit. Cells and columns do not depend on each other, so that
 //! they are spread over threads and the map is the same for every number of them.
 
 pub mod extremes;
+mod legend;
 pub mod outcome;
 pub mod page;
+mod panel;
 pub mod range;
 pub mod threshold;
 
@@ -55,7 +57,7 @@ pub struct Column {
     pub density: f64,
     /// In N/m.
     pub ks: f64,
-    /// Steps a second that theory asks for at rest, in any configuration, and after Gershgorin.
+    /// Steps a second that theory asks for at rest, at worst, and after Gershgorin.
     pub theory: [f64; 3],
     /// Steps a second found by trying, at rest ([`threshold::at_rest`]).
     pub at_rest: Option<f64>,
