@@ -23,7 +23,7 @@
 //! they put in more than that within a second. Without a ledger such a blow-up is missed; the
 //! command line keeps one whenever the cloth may become unstable behind a stretch limit.
 //!
-//! Where Verlet's step is stable in every configuration the ledger is no judge: the springs cannot
+//! Where Verlet's step is stable at worst the ledger is no judge: the springs cannot
 //! blow up, but what they put in has no bound. Every correction of the stretch limit is a kick that
 //! they answer by up to `1 / (1 - (dt ω / 2)²)` times its energy, and a cloth that is so heavy that
 //! the limit bears it is corrected in every step for as long as it hangs (`docs/stability.md` has

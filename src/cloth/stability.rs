@@ -16,7 +16,7 @@
 //!   eigenvalue less than 0.5 % below that of the endless lattice (0.1 % with every kind of
 //!   spring). Where the pins leave no such part it is the whole grid, with as many rounds as
 //!   `WORK` allows.
-//! - *In any configuration* it is at most `k I`, so the scalar lattice bounds it: with
+//! - *At worst*, in any shape, it is at most `k I`, so the scalar lattice bounds it: with
 //!   P = sin²(p/2) and Q = sin²(q/2) of the wave numbers p and q, the structural springs give
 //!   4 ks (P + Q), the shearing springs 8 ks (P + Q - 2 P Q) and the bending springs
 //!   3.2 ks (P (1 - P) + Q (1 - Q)). The largest sum is 12 ks with structural and shearing
@@ -49,7 +49,7 @@ pub struct Stability {
     pub limit: f64,
     /// Angular frequency of the fastest vibration of the cloth at rest, in rad/s; never too large.
     pub omega_rest: f64,
-    /// Angular frequency that no configuration of the cloth exceeds, in rad/s.
+    /// Angular frequency at worst, which no shape of the cloth exceeds, in rad/s.
     pub omega_safe: f64,
     /// Frames per second.
     fps: f64,
@@ -77,7 +77,7 @@ impl Stability {
         self.dt * self.omega_rest >= self.limit
     }
 
-    /// Whether the springs are stable in every configuration.
+    /// Whether the springs are stable at worst, in every shape of the cloth.
     pub fn is_always_stable(&self) -> bool {
         self.dt * self.omega_safe < self.limit
     }
@@ -211,7 +211,7 @@ fn inner(a: &Points, b: &Points) -> f64 {
     (0..a.len()).map(|p| dot(a.get(p), b.get(p))).sum()
 }
 
-/// A bound of the eigenvalues of the stiffness of `cloth` in any configuration, in N/m.
+/// A bound of the eigenvalues of the stiffness of `cloth` at worst, in N/m.
 fn safe_eigenvalue(cloth: &Cloth) -> f64 {
     let factor = match (cloth.enable_structural, cloth.enable_shearing, cloth.enable_bending) {
         (true, true, _) => 12.0,

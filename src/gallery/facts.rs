@@ -66,15 +66,15 @@ pub(super) fn margin(state: &State) -> String {
     let Some(Stability { dt, limit, omega_rest, omega_safe, .. }) = state.stability else {
         return "Nothing moves, so there is no step.".to_owned();
     };
-    let (rest, safe) = (dt * omega_rest, dt * omega_safe);
-    let verdict = if safe < limit {
-        "stable in every configuration"
+    let (rest, worst) = (dt * omega_rest, dt * omega_safe);
+    let verdict = if worst < limit {
+        "stable at worst"
     } else if rest < limit {
-        "stable at rest, and not proven so when the cloth is sheared and compressed"
+        "stable at rest, not at worst"
     } else {
         "unstable"
     };
-    format!("dt·ω = {rest:.3} at rest, at most {safe:.3}; the limit is {limit:.3}: {verdict}.")
+    format!("dt·ω = {rest:.3} at rest, {worst:.3} at worst; the limit is {limit:.3}: {verdict}.")
 }
 
 /// What each phase put in or took out until the moment, and what is left of it as motion.
