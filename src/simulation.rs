@@ -85,6 +85,7 @@ impl Simulation {
         state::check_size(&last, points)?;
         if let Some(cloth) = &mut self.cloth {
             (cloth.x, cloth.last) = (x, last);
+            cloth.scheme.forget();
             cloth.set_budget();
         }
         Ok(())
@@ -162,7 +163,8 @@ impl Simulation {
         self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.x)
     }
 
-    /// Where the points were one step ago but for collisions and the stretch limit, in metres.
+    /// Where the last step moved the points from, in metres: where the phases of the step before it
+    /// had left them. With `precision: f32` that is the position less the displacement.
     pub fn last_positions(&self) -> &Points {
         self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.last)
     }
@@ -195,8 +197,8 @@ impl Simulation {
         Some(self.cloth.as_ref()?.recorder.as_ref()?.ledger)
     }
 
-    /// A hash over the bits of the whole state: the arrays x, y and z of the positions, then those
-    /// of the last positions.
+    /// A hash over the bits of the positions, as the arrays x, y and z, and then of the last positions.
+    /// BDF2 remembers velocities too, which are not in it.
     pub fn state_hash(&self) -> u64 {
         let mut hash = StateHash::default();
         for points in [self.positions(), self.last_positions()] {

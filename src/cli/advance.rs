@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use super::progress::Progress;
-use crate::cloth::Points;
 use crate::cloth::rest::{Motion, RestWatch};
 use crate::cloth::stability::Stability;
+use crate::cloth::{Counters, Points};
 use crate::error::{Error, Kind, Result};
 use crate::scene::{Integrator, Scene};
 use crate::simulation::{Simulation, Unresolved};
@@ -81,13 +81,13 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
 
 /// The error of a cloth that vibrates too fast even at rest.
 pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
-    let Stability { mass, dt, limit, omega_rest, omega_safe, .. } = *stability;
+    let Stability { mass, dt, limit, omega_rest, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
         "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
-    let [fewest, fewest_worst] = [omega_rest, omega_safe].map(|omega| stability.fewest_steps(omega));
-    let [softer, softer_worst] = [omega_rest, omega_safe].map(|omega| largest_ks(stability, ks, omega));
+    let [fewest, fewest_worst] = [stability.fewest_steps_rest(), stability.fewest_steps_worst()];
+    let [softer, softer_worst] = largest_ks(stability, ks);
     let help = format!(
         "raise steps_per_frame from {steps} to at least {fewest} at rest, {fewest_worst} at worst: --set \
          sim.steps_per_frame={fewest_worst} (damping per step acts that much more often); or lower ks to at most \
@@ -98,13 +98,14 @@ pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
 
 /// The warning for a cloth that is stable at rest but perhaps not when it is deformed.
 fn possible(stability: &Stability, steps: u32) -> String {
-    let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+    let Stability { dt, limit_worst, omega_rest, omega_safe, .. } = *stability;
+    let undamped = if limit_worst < stability.limit { " without damping" } else { "" };
     format!(
-        "the cloth may become unstable when it is deformed: dt·ω is {:.3} at rest but {:.3} at worst, and only below \
-         {limit:.3} is stable; steps_per_frame {} instead of {steps} is stable at worst",
+        "the cloth may become unstable in motion: dt·ω is {:.3} at rest but {:.3} at worst, and only below \
+         {limit_worst:.3} is it stable{undamped}; steps_per_frame {} instead of {steps} is stable at worst",
         dt * omega_rest,
         dt * omega_safe,
-        stability.fewest_steps(omega_safe),
+        stability.fewest_steps_worst(),
     )
 }
 
@@ -115,12 +116,14 @@ fn apart(a: f64, b: f64) -> (String, String) {
     (2..16).map(text).find(|(a, b)| a != b).unwrap_or_else(|| text(16))
 }
 
-/// The largest ks of four digits, in N/m, at which a vibration that has `omega` rad/s at `ks` is stable;
+/// The largest ks of four digits, in N/m, at which a cloth of `ks` would be stable at rest and at worst;
 /// not finite if the springs have no stiffness.
-pub(super) fn largest_ks(stability: &Stability, ks: f64, omega: f64) -> f64 {
-    let part = stability.limit / (stability.dt * omega);
-    // At the bound itself the cloth is not stable; of another ks ω is rounded otherwise.
-    rounded_down(ks * part * part * (1.0 - 1e-9))
+pub(super) fn largest_ks(stability: &Stability, ks: f64) -> [f64; 2] {
+    let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
+    [limit / (dt * omega_rest), limit_worst / (dt * omega_safe)].map(|part| {
+        // At the bound itself the cloth is not stable; of another ks ω is rounded otherwise.
+        rounded_down(ks * part * part * (1.0 - 1e-9))
+    })
 }
 
 /// The largest number of four digits that is not above `value` (> 0).
@@ -194,6 +197,17 @@ pub(super) fn advance_until(
     Ok(Moved { elapsed, restless })
 }
 
+/// Warns of steps that an implicit integrator did not solve.
+pub(super) fn warn_of_unsolved(simulation: &Simulation, session: &Session) {
+    let Counters { steps, unsolved_steps, .. } = simulation.counters();
+    if unsolved_steps > 0 {
+        session.ui.note(&format!(
+            "warning: {unsolved_steps} of {steps} steps left more than sim.tolerance of the forces unbalanced\n  \
+             = help: raise steps_per_frame, or sim.tolerance if so much is good enough"
+        ));
+    }
+}
+
 /// The error of a cloth that still moves at the end.
 fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Error {
     let does = motion.map_or_else(String::new, |motion| {
@@ -229,6 +243,7 @@ fn advance_while(
     }
     drop(progress);
     session.signals.check()?;
+    warn_of_unsolved(simulation, session);
     let elapsed = started.elapsed();
     session.ui.remark(&format!("simulated {} frames in {:.3} s", simulation.frame(), elapsed.as_secs_f64()));
     Ok(elapsed)

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 
 use super::Session;
+use super::advance::warn_of_unsolved;
 use super::moments::Moments;
 use super::progress::Progress;
 use super::target::{Marks, Target};
@@ -107,6 +108,7 @@ impl Film<'_> {
                 break;
             }
         }
+        warn_of_unsolved(&simulation, session);
         Ok(())
     }
 

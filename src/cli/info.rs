@@ -57,6 +57,8 @@ struct Bound {
     dt_omega_rest: f64,
     dt_omega_worst: f64,
     dt_omega_limit: f64,
+    /// The same at worst, where a cloth without damping has a lower one.
+    dt_omega_limit_worst: f64,
     fewest_steps_rest: f64,
     fewest_steps_worst: f64,
     /// The most ks at this step, N/m; infinite, and left out, for springs without stiffness.
@@ -159,16 +161,18 @@ impl ClothInfo {
 
 impl Bound {
     fn of(stability: &Stability, ks: f64, steps_per_frame: u32) -> Self {
-        let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
-        let most = |omega| Some(largest_ks(stability, ks, omega)).filter(|ks| ks.is_finite());
+        let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
+        let [largest_ks_rest, largest_ks_worst] =
+            largest_ks(stability, ks).map(|ks| Some(ks).filter(|ks| ks.is_finite()));
         Self {
             dt_omega_rest: dt * omega_rest,
             dt_omega_worst: dt * omega_safe,
             dt_omega_limit: limit,
-            fewest_steps_rest: stability.fewest_steps(omega_rest),
-            fewest_steps_worst: stability.fewest_steps(omega_safe),
-            largest_ks_rest: most(omega_rest),
-            largest_ks_worst: most(omega_safe),
+            dt_omega_limit_worst: limit_worst,
+            fewest_steps_rest: stability.fewest_steps_rest(),
+            fewest_steps_worst: stability.fewest_steps_worst(),
+            largest_ks_rest,
+            largest_ks_worst,
             steps_per_frame,
         }
     }
@@ -178,8 +182,13 @@ impl Bound {
         let ks = self.largest_ks_rest.zip(self.largest_ks_worst).map_or_else(String::new, |(rest, worst)| {
             format!("ks          at most {rest} N/m at rest, {worst} at worst, at {steps} steps per frame\n")
         });
+        let undamped = if self.dt_omega_limit_worst < self.dt_omega_limit {
+            format!(" at rest and {:.4} at worst", self.dt_omega_limit_worst)
+        } else {
+            String::new()
+        };
         format!(
-            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}: {stable}\n\
+            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}{undamped}: {stable}\n\
              steps       at least {} per frame at rest, {} at worst\n{ks}",
             self.dt_omega_rest,
             self.dt_omega_worst,

@@ -61,6 +61,11 @@ impl Bdf2 {
         })
     }
 
+    /// Lets every point begin anew.
+    pub(crate) fn forget(&mut self) {
+        self.memory[2].x.fill(f64::NAN);
+    }
+
     /// Moves every unpinned point on by one step.
     pub(crate) fn advance(
         &mut self,

@@ -10,9 +10,11 @@
 //! What is allowed on top, with M the mass of the cloth and g the size of gravity:
 //! - the error of the finite step: as much again as the motion and the springs held at the
 //!   start, `M g L / 2` for a cloth with sides of at most L, and `M (g dt)²`;
-//! - self-collision moves a point by at most `2 thickness / T` in a step, so at
-//!   `2 thickness fps`: `M (2 thickness fps)² / 2`, and the springs that it stretches to
-//!   `2 thickness`;
+//! - self-collision pushes points at the distance l apart by `(2 thickness - l) / T` in a step. One
+//!   push gives at most the speed `2 thickness fps`: `M (2 thickness fps)² / 2`, and the springs that
+//!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
+//!   points together; but where neighbours start too close, nothing did: for each such point
+//!   `m (2 thickness - l)² / (2 T dt²)`;
 //! - a plane puts a point [`SURFACE_OFFSET`] above it: `M (offset / dt)² / 2`;
 //! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
 //! - rounding.
@@ -23,14 +25,15 @@
 //! they put in more than that within a second. Without a ledger such a blow-up is missed; the
 //! command line keeps one whenever the cloth may become unstable behind a stretch limit.
 //!
-//! Where Verlet's step is stable at worst the ledger is no judge: the springs cannot
-//! blow up, but what they put in has no bound. Every correction of the stretch limit is a kick that
+//! Where Verlet's step is stable at worst (`stability`) the ledger is no judge: no blow-up was
+//! found there, but what the springs put in has no bound. Every correction of the stretch limit is a kick that
 //! they answer by up to `1 / (1 - (dt ω / 2)²)` times its energy, and a cloth that is so heavy that
 //! the limit bears it is corrected in every step for as long as it hangs (`docs/stability.md` has
 //! the runs).
 
 use super::collide::SURFACE_OFFSET;
 use super::energy::Energy;
+use super::grid::Grid;
 use super::ledger::Ledger;
 use super::springs::Springs;
 use super::stability::is_always_stable;
@@ -48,6 +51,9 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct Allowance {
     /// For the finite step, self-collision and planes, in J.
     fixed: f64,
+    grid: Grid,
+    /// Distance that self-collision keeps, in metres; 0 without it.
+    distance: f64,
     spheres: Vec<Sphere>,
     /// Whether what springs and gravity put in is bounded too.
     bounds_exchange: bool,
@@ -58,28 +64,45 @@ impl Allowance {
     pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, constants: &Constants) -> Self {
         let Constants { mass, dt, .. } = *constants;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
+        let distance = match scene.sim.self_collision {
+            SelfCollision::Off => 0.0,
+            _ => 2.0 * cloth.thickness,
+        };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
-        if scene.sim.self_collision != SelfCollision::Off {
-            let distance = 2.0 * cloth.thickness;
-            fixed += motion(all, distance / constants.steps_per_frame / dt) + stretched_to(distance, springs);
-        }
+        fixed += motion(all, distance / constants.steps_per_frame / dt) + stretched_to(distance, springs);
         if !scene.planes.is_empty() {
             fixed += motion(all, SURFACE_OFFSET / dt);
         }
         let verlet = scene.sim.integrator == Integrator::Verlet;
         let bounds_exchange = !(verlet && is_always_stable(cloth, &scene.sim));
-        Self { fixed, spheres: scene.spheres.clone(), bounds_exchange }
+        Self { fixed, grid: springs.grid, distance, spheres: scene.spheres.clone(), bounds_exchange }
     }
 
     /// The budget of a cloth that starts at `x` with `energy`.
     pub(crate) fn budget(&self, x: &Points, energy: Energy, constants: &Constants) -> Budget {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
+        let Constants { dt, steps_per_frame, .. } = *constants;
+        for p in 0..x.len() {
+            let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
+            allowance += motion(constants.mass, depth / (dt * steps_per_frame.sqrt()));
+        }
         for sphere in &self.spheres {
             let depth = |p| (sphere.radius - len(x.get(p) - sphere.origin)).max(0.0);
             allowance += (0..x.len()).map(|p| motion(constants.mass, depth(p) / constants.dt)).sum::<f64>();
         }
         Budget { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
     }
+}
+
+/// Distance of point `p` from the nearest of those beside it in its row and column, in metres.
+fn nearest_neighbor(grid: Grid, x: &Points, p: usize) -> f64 {
+    let (i, j) = grid.column_row(p);
+    let left = (i > 0).then(|| p - 1);
+    let right = (i + 1 < grid.width).then_some(p + 1);
+    let above = (j > 0).then(|| p - grid.width);
+    let below = (j + 1 < grid.height).then_some(p + grid.width);
+    let beside = [left, right, above, below].into_iter().flatten();
+    beside.map(|q| len(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min)
 }
 
 /// The kinetic energy of `mass` at `speed`, in J.

@@ -205,8 +205,11 @@ pub fn damping_rate(percent: f64) -> f64 {
 pub struct Counters {
     /// Steps made.
     pub steps: u64,
-    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed.
+    /// Springs whose force, or whose part of a product with the stiffness matrix, was computed. What
+    /// makes the matrix, once for some tens of products, is not counted.
     pub springs_evaluated: u64,
+    /// Steps of an implicit integrator that left more than `sim.tolerance` of the forces unbalanced.
+    pub unsolved_steps: u64,
     /// Points that the integrator moved on.
     pub points_advanced: u64,
     /// Boxes of two or more points that self-collision looked into.

@@ -1,9 +1,9 @@
 //! Newton's method for the end of an implicit step (Baraff and Witkin 1998 take one round of it):
 //! the positions x with `inertia (x - target) = f(x)`, f the weight and the springs at x.
 //!
-//! They are where `inertia |x - target|² / 2` and the energies of springs and height together are
-//! least. Each round goes along the solution of the linear system, by half as often as it must
-//! until it does not lead up again by more than half of the slope that it started down.
+//! There `inertia |x - target|² / 2` and the energies of springs and height together have no slope.
+//! Each round steps along the Newton direction, and halves the step until the slope upwards at its
+//! end is at most half of the slope downwards at its start.
 
 use super::conjugate_gradients::{ConjugateGradients, Matrix, add, dot, length};
 use super::forces::Forces;
@@ -21,7 +21,7 @@ const HALVINGS: usize = 20;
 /// How much of its residual a round of Newton's method may leave to the next.
 const FORCING: f64 = 0.01;
 
-/// Part of the positions' length that a round must move to be worth another.
+/// Move of a round, as a part of the positions' length, below which another is in vain.
 const ROUNDING: f64 = 1e-15;
 
 /// The solver, and the two numbers that make an integrator of it.
@@ -59,21 +59,26 @@ impl Newton {
     pub(crate) fn solve(&mut self, x: &mut Points, model: Model<'_>, counters: &mut Counters) {
         let mut goal = self.balance(x, model, counters);
         let (mut rounds, mut moved) = (0, f64::INFINITY);
-        // A residual that is no number ends it too.
-        while rounds < ROUNDS && length(&self.residual) > goal && moved > ROUNDING * length(x) {
+        while rounds < ROUNDS && !self.is_balanced(goal) && moved > ROUNDING * length(x) {
             rounds += 1;
             self.matrix.stiffness.update(x, model.springs);
             let target = (0.5 * goal).max(FORCING * length(&self.residual));
             let Self { matrix, linear, residual, .. } = self;
             let products = linear.solve(residual, target, matrix, model) as u64;
             counters.springs_evaluated += products * model.springs.len() as u64;
-            goal = self.go(x, model, counters);
-            moved = length(&self.linear.solution);
+            (goal, moved) = self.go(x, model, counters);
         }
+        counters.unsolved_steps += u64::from(!self.is_balanced(goal));
     }
 
-    /// Moves the points along the solution of the linear system; the goal where they end.
-    fn go(&mut self, x: &mut Points, model: Model<'_>, counters: &mut Counters) -> f64 {
+    /// Whether the residual is no longer than `goal`, in N.
+    fn is_balanced(&self, goal: f64) -> bool {
+        length(&self.residual) <= goal
+    }
+
+    /// Moves the points along the solution of the linear system; the goal where they end, and by how much
+    /// they moved.
+    fn go(&mut self, x: &mut Points, model: Model<'_>, counters: &mut Counters) -> (f64, f64) {
         let slope = dot(&self.residual, &self.linear.solution);
         let mut part = 1.0;
         add(x, part, &self.linear.solution);
@@ -85,7 +90,7 @@ impl Newton {
             add(x, -part, &self.linear.solution);
             goal = self.balance(x, model, counters);
         }
-        goal
+        (goal, part * length(&self.linear.solution))
     }
 
     /// Computes the residual at `x`, in N; how long it may be.

@@ -59,6 +59,13 @@ impl Scheme {
         }
     }
 
+    /// Forgets what it remembers, because the points were put elsewhere or stopped.
+    pub(super) fn forget(&mut self) {
+        if let Self::Bdf2(bdf2) = self {
+            bdf2.forget();
+        }
+    }
+
     /// What damping changed of the displacement of point `p`, which moved by `before` and then by
     /// `moved`, and the force on it that explains the rest, in N.
     pub(super) fn split(&self, p: usize, before: Vec3, moved: Vec3, constants: &Constants) -> [Vec3; 2] {

@@ -37,7 +37,8 @@ pub(super) const LINES: [Line; 3] = [
     Line {
         name: "at worst",
         meaning: "theory, in the shape with the fastest vibration that any cloth can take (12 ks/m). From this line \
-                  on no cloth blows up. Between the two lines it depends on how the cloth is deformed.",
+                  on no cloth was found to blow up. It is higher without damping, since there motion feeds resonances. \
+                  Between the two lines it depends on how the cloth is deformed.",
         color: "--ink",
         stroke: 2.0,
         dashed: true,
@@ -78,7 +79,7 @@ fn meaning(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ok => {
             "no blow-up in this run, and no spring much longer than the stretch limit allows. These values may be used; \
-             from the line at worst on no blow-up can come later either."
+             from the line at worst on none was found to come later either."
         }
         Outcome::Stretch => {
             "no blow-up: no energy came from nowhere. But at the end of a frame a spring was over its rest length by \

@@ -28,8 +28,8 @@ fn panels(map: &Map) -> String {
          {}<div class=\"maps\">\n{plots}</div>\n\
          <p class=\"soft\">The stretch limit takes out in every step what the springs of a cloth that blows up put \
          in: strains, and often the energy that the cloth holds, stay small. What shows then is the ledger, which \
-         counts what the springs put in; it judges only below the bound at worst, for above it they cannot blow \
-         up.</p>\n",
+         counts what the springs put in; it judges only below the bound at worst, for from there on no blow-up was \
+         found.</p>\n",
         map.axes.time,
         legend(),
     )

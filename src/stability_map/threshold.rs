@@ -71,8 +71,8 @@ pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>>
     }
     let mut scene = scene.clone();
     let steps_per_frame = f64::from(scene.sim.steps_per_frame);
-    let [rest, worst] =
-        [stability.omega_rest, stability.omega_safe * ABOVE].map(|omega| omega / stability.limit);
+    let rest = stability.omega_rest / stability.limit;
+    let worst = stability.omega_safe / stability.limit_worst * ABOVE;
     let mut is_unstable = |steps_per_second: f64| {
         scene.sim.fps = steps_per_second / steps_per_frame;
         let shortest = frames(SHORTEST / steps_per_frame, 1.0);

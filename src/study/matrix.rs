@@ -275,7 +275,8 @@ fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Ext
         return Err(Error::new(Kind::Internal, "the cloth is gone"));
     };
     let mass = Constants::new(cloth, &scene.sim).mass;
-    let stable_rate = (0.5 * Stability::new(cloth, &scene.sim)?.omega_safe).max(50.0);
+    let Stability { omega_safe, limit_worst, .. } = Stability::new(cloth, &scene.sim)?;
+    let stable_rate = (omega_safe / limit_worst).max(50.0);
     let rates = rates(stock, stable_rate, cloth, extent);
     let mut panel = Panel {
         density,

@@ -15,6 +15,7 @@ use super::runs::median;
 use super::store::Store;
 use crate::cloth::Points;
 use crate::error::Result;
+use crate::math::StateHash;
 use crate::output::compare::Difference;
 use crate::output::png::Pixels;
 use crate::render::{Options, Renderer, Shading};
@@ -106,6 +107,8 @@ pub struct Pictures {
     points: Points,
     /// The converged picture.
     pub converged: Pixels,
+    /// A hash of it, which changes with whatever a picture shows: the textures too.
+    shown: u64,
     /// Root of the mean squared difference of the converged picture from one of half its size.
     pub floor: f64,
     /// The ways, measured.
@@ -135,8 +138,10 @@ pub fn measure(
     let converged = finer(&scene, textures, &points, FINE)?;
     let coarser = finer(&scene, textures, &points, FINE / 2)?;
     let floor = Difference::between(&converged, &coarser).rmse;
-    let textures = textures.clone();
-    let mut pictures = Pictures { scene, textures, points, converged, floor, drawn: Vec::new() };
+    let mut hash = StateHash::default();
+    hash.write(converged.rgba.as_flattened());
+    let (textures, shown) = (textures.clone(), hash.finish());
+    let mut pictures = Pictures { scene, textures, points, converged, shown, floor, drawn: Vec::new() };
     // A picture takes so little time that it can be drawn often.
     for round in 0..4 * extent.repeats {
         for (number, way) in ways(&pictures.scene, extent).into_iter().enumerate() {
@@ -154,10 +159,11 @@ fn has_lines(scene: &Scene) -> bool {
     cloth.chain(planes).chain(spheres).any(|material| material.shader == Shader::Wireframe)
 }
 
-/// The cloth at the time of the picture, if it gets there.
+/// The cloth at the frame of the picture, the nearest to the scene's time, if it gets there.
 fn moved(scene: &Scene, watch: &dyn Fn(u32) -> Result<()>) -> Result<Option<Points>> {
     let mut simulation = Simulation::new(scene)?;
-    while simulation.time() < scene.render.time {
+    let frames = (scene.render.time * scene.sim.fps).round();
+    while (simulation.frame() as f64) < frames {
         watch(0)?;
         if simulation.advance_frame().is_err() {
             return Ok(None);
@@ -240,7 +246,7 @@ impl Pictures {
 
     /// Makes repetition `round` of way `number`, unless it is kept.
     fn measure_way(&mut self, number: usize, way: Way, round: usize, store: &Store) -> Result<()> {
-        let key = key("picture", &(&self.scene, &self.textures, way));
+        let key = key("picture", &(&self.scene, self.shown, way));
         if round == 0
             && let Some(kept) = store.get::<Drawn>(key)
         {

@@ -19,10 +19,10 @@ use super::trajectory::{self, Limits, Moment, Trajectory};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
 
-/// The part of an error that the floor may be if the error is drawn.
+/// An error is drawn if the floor is at most this part of it.
 pub(super) const DRAWN: f64 = 0.1;
 
-/// The part of most errors that the floor may be at a moment that is compared.
+/// A moment is compared if the floor is at most this part of most errors.
 pub(super) const COMPARED: f64 = 0.01;
 
 /// Runs that [`converge`] tells of, as multiples of the steps of the first: as many as five runs make.
@@ -31,11 +31,11 @@ pub(super) const RUNGS: u32 = 1 + 2 + 4 + 8 + 16;
 /// The self-converged answer of one panel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Reference {
-    /// Steps per second of the last two runs.
+    /// Steps per second of the two runs that agree best.
     pub rates: [u32; 2],
-    /// How far the last two runs differ at each moment.
+    /// How far the two differ at each moment.
     pub floor: Vec<Difference>,
-    /// The last run.
+    /// The one of them with the smaller step.
     #[serde(skip)]
     pub moments: Vec<Moment>,
 }
@@ -145,7 +145,7 @@ fn rung(
     Ok(run)
 }
 
-/// A name for what `kind` of result depends on `what`: its own text, in hash.
+/// What a result of a `kind` is kept under: a hash of `what` it depends on and of the version.
 pub(super) fn key(kind: &str, what: &impl std::fmt::Debug) -> u64 {
     let mut hash = StateHash::default();
     hash.write(format!("{} {kind} {what:?}", env!("CARGO_PKG_VERSION")).as_bytes());

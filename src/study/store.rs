@@ -1,5 +1,6 @@
 //! Finished results, one file each, named by what they depend on: a study that was stopped goes on
-//! where it was, and one whose scene or matrix has changed finds nothing that is out of date.
+//! where it was, and one whose scene, matrix or textures have changed, or the version of the program,
+//! finds nothing that is out of date. Times are those of the machine as it was then.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -20,7 +20,8 @@ const FIRST: f64 = 2.0;
 pub struct Trajectory {
     /// The moments; those after the cloth was lost or the run given up are absent.
     pub moments: Vec<Moment>,
-    /// Springs that were visited, to compute a force or to limit a stretch, per simulated second.
+    /// Springs that were visited per simulated second: to compute a force or a product with the
+    /// stiffness matrix, or to limit a stretch.
     pub springs: f64,
     /// Wall time per simulated second, in seconds.
     pub wall: f64,

@@ -15,7 +15,7 @@ fn a_cloth_at_rest_is_stable_exactly_from_the_predicted_steps_on() {
         let mut scene = springs_only(points, points);
         (cloth(&mut scene).ks, cloth(&mut scene).damping) = (ks, percent);
         let stability = Stability::new(scene.cloth.as_ref().unwrap(), &scene.sim).unwrap();
-        let fewest = stability.fewest_steps(stability.omega_rest);
+        let fewest = stability.fewest_steps_rest();
         let growth = |steps: f64| {
             scene.sim.steps_per_frame = steps as u32;
             let mut simulation = stirred(&scene, 1e-7);
@@ -40,8 +40,8 @@ fn the_stock_cloth_has_its_known_stability() {
         (cloth.num_width_points, cloth.num_height_points) = (points, points);
         cloth.pinned = vec![[0, 0], [points - 1, 0]];
         let stability = Stability::new(&cloth.clone(), &scene.sim).unwrap();
-        assert_eq!(stability.fewest_steps(stability.omega_rest), rest, "{points} points at rest");
-        assert_eq!(stability.fewest_steps(stability.omega_safe), safe, "{points} points at worst");
+        assert_eq!(stability.fewest_steps_rest(), rest, "{points} points at rest");
+        assert_eq!(stability.fewest_steps_worst(), safe, "{points} points at worst");
         assert_eq!(stability.is_unstable_at_rest(), rest > 30.0, "{points} points at 30 steps a frame");
         assert_eq!(stability.is_always_stable(), safe <= 30.0, "{points} points at 30 steps a frame");
         let lattice = (8.0 * 5000.0 / stability.mass).sqrt();

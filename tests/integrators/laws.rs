@@ -42,6 +42,37 @@ fn implicit_euler_only_takes_energy() {
     }
 }
 
+/// An implicit step is solved to the scene's tolerance, or counted: 1e-16 is finer than rounding leaves.
+#[test]
+fn steps_that_are_not_solved_are_counted() {
+    for integrator in [Integrator::ImplicitEuler, Integrator::Bdf2] {
+        for (tolerance, unsolved) in [(1e-3, 0), (1e-9, 0), (1e-16, 30)] {
+            let mut scene = hanging(10, integrator);
+            (scene.sim.steps_per_frame, scene.sim.tolerance) = (1, tolerance);
+            let mut simulation = Simulation::new(&scene).unwrap();
+            (0..30).for_each(|_| simulation.step());
+            assert_eq!(simulation.counters().unsolved_steps, unsolved, "{integrator:?} to {tolerance:e}");
+        }
+    }
+}
+
+/// A state that is set is all that the next step knows: BDF2 forgets the velocities before it.
+#[test]
+fn a_state_that_is_set_leaves_no_memory() {
+    for integrator in crate::ALL {
+        let scene = hanging(10, integrator);
+        let mut moved = Simulation::new(&scene).unwrap();
+        (0..50).for_each(|_| moved.step());
+        let mut fresh = Simulation::new(&scene).unwrap();
+        let x = moved.positions().clone();
+        for simulation in [&mut moved, &mut fresh] {
+            simulation.set_state(x.clone(), x.clone()).unwrap();
+            (0..5).for_each(|_| simulation.step());
+        }
+        assert_eq!(moved.state_hash(), fresh.state_hash(), "{integrator:?}");
+    }
+}
+
 /// The integrators that are called stable for every step are, and one that gains energy is stopped.
 #[test]
 fn what_gains_energy_is_stopped() {
