@@ -60,6 +60,18 @@ fn a_cloth_without_stiffness_has_no_threshold() {
     assert_eq!(threshold::at_rest(&scene, scene.cloth.as_ref().unwrap()).unwrap(), None);
 }
 
+/// Up to the bound at worst the springs of a cloth so heavy put in more than it is allowed: there is the
+/// edge, and not at an end of an interval across it.
+#[test]
+fn a_threshold_in_motion_is_not_above_the_one_at_worst() {
+    let scene = small(&["cloth.ks=50"]);
+    let cloth = scene.cloth.as_ref().unwrap();
+    let theory = drape::cloth::stability::Stability::new(cloth, &scene.sim).unwrap();
+    let worst = theory.omega_safe / theory.limit_worst;
+    let tried = threshold::in_motion(&scene, cloth, 0.5).unwrap().unwrap();
+    assert!((tried / worst - 1.0).abs() < 1e-9, "{tried} instead of {worst}");
+}
+
 #[test]
 fn cells_break_below_the_bound_at_rest_and_hold_above_the_one_at_worst() {
     let scene = small(&[]);
