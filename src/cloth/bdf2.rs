@@ -5,9 +5,10 @@
 //! Damping per second is the drag `-c m v'` at the end of the step. Damping per step multiplies
 //! velocities by `keep` each step: v by keep, v_last, which is a step older, by keep².
 //!
-//! A correction of the position has no place in the formula's memory. So a point that
+//! The two-step formula cannot take in a corrected position. So a point that
 //! collisions, the stretch limit or the user moved, and every point at the start, takes its next
 //! step by implicit Euler with the velocity `(x - last) / dt`, and starts a new memory with it.
+//! Beside a point that remembers, that step does not conserve their momentum.
 
 use super::newton::Newton;
 use super::springs::Springs;

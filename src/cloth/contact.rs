@@ -1,9 +1,9 @@
 //! The cure for points that end up inside a sphere or below a plane (`sim.contact` = `outside`):
-//! after the stretch limit every free point is put back on the surface, for certain.
+//! after the stretch limit every free point inside an object is put back on its surface.
 //!
 //! A plane remembers on which side each point started, and a point that starts on it belongs to
-//! the side of its normal. Where two objects overlap, the later one has the last word: the
-//! planes in file order, then the spheres. Measured on the stock sphere scene at each of 3600
+//! the side of its normal. Where objects overlap, only the one handled last is sure to be left:
+//! planes come in file order, then spheres. Measured on the stock sphere scene at each of 3600
 //! steps: up to 477 points are inside the ball, up to 0.11 mm deep, without it; with it none ever.
 
 use super::grid::Pins;
@@ -11,7 +11,7 @@ use super::{Counters, Points, dot, filled, len};
 use crate::error::Result;
 use crate::scene::{Plane, Scene, Sphere, Vec3};
 
-/// Height above a plane, over the size of the coordinates, that its rounding cannot take away.
+/// Lift, relative to the coordinates, that keeps a point above a plane despite rounding.
 const LIFT: f64 = 16.0 * f64::EPSILON;
 
 /// The objects of a scene, with the side of each plane on which each point belongs.

@@ -19,7 +19,7 @@
 //! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
 //! - rounding.
 //!
-//! A blow-up that the stretch limit holds below this shows in the energy ledger alone: the springs
+//! A blow-up that the stretch limit holds below this is visible only in the energy ledger: the springs
 //! put in what the limit takes out, in every step. So where a ledger is kept, what springs and
 //! gravity have put in must not exceed the same allowance. With fewer steps than are stable at rest
 //! they put in more than that within a second. Without a ledger such a blow-up is missed; the

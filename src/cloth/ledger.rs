@@ -12,8 +12,9 @@
 //! So gravity and springs have entries only for what the finite step makes them add: both vanish
 //! with the step, and grow without end when the step is too large for the springs.
 //!
-//! For the other integrators f is the force that explains the motion, `(d1 - keep d0) / a`; so what
-//! they dissipate by themselves is entered for the springs and gravity.
+//! For the other integrators f is the force that explains the motion, `(d1 - keep d0) / a2`, and for
+//! BDF2 what is left of `d1 - d0` beside its drag, times m / dt²; so what they dissipate by
+//! themselves is entered for the springs and gravity.
 
 use super::energy::{Energy, spring_energy};
 use super::grid::Pins;

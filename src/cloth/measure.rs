@@ -6,7 +6,7 @@ use super::{Points, dot, len};
 /// The extremes of a cloth at one moment; all zero without a cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Extremes {
-    /// Largest length of a spring over its rest length; 0 without springs.
+    /// Largest length of a spring over its rest length, which is 1 more than its strain; 0 without springs.
     pub stretch: f64,
     /// Smallest distance between two points, in metres.
     pub distance: f64,

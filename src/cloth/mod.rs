@@ -7,16 +7,16 @@
 //!
 //! Other integrators ([`crate::scene::Integrator`]) take the place of Verlet's scheme, on the same
 //! springs and before the same other phases. For each of them the velocity of a point between two
-//! steps is `(x - last) / dt`, with `last` where it was one step ago before the phases, so
-//! that collisions and the stretch limit change velocities as they do under Verlet's scheme.
+//! steps is `(x - last) / dt`: `x` after the phases of this step, `last` after those of the step
+//! before, so that collisions and the stretch limit change velocities as under Verlet's scheme.
 //!
 //! Point (i, j) of a grid of `W` × `H` points has index `j * W + i`. Positions are in metres.
 //!
 //! # What this method does not promise
-//! Its phases change positions behind the back of the integrator. So these do **not** hold, and
-//! no test asks for them:
+//! Its phases move points without the integrator knowing. So these do **not** hold, and no test
+//! asks for them:
 //! - momentum, once two points collide (the correction is one-sided and divided by the steps);
-//! - angular momentum, once the stretch limit acts (it moves points without their velocity's arm);
+//! - angular momentum, once the stretch limit acts (it moves the point at which a velocity acts);
 //! - energy that only falls, once objects or self-collision act;
 //! - strain of at most 10 % after the stretch limit (one pass leaves 13 % on the stock scenes);
 //! - a distance of 2 · thickness between points (pairs across a box border are never seen);
@@ -26,11 +26,13 @@
 //! - time reversal with damping, contact or the stretch limit;
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
-//! Each has a cure that a scene can ask for: `sim.start`, `sim.damping`, `sim.self_collision` and
-//! `sim.contact`. The defaults are the published method's.
+//! Some have a cure that a scene can ask for: `sim.damping` for the number of steps,
+//! `sim.self_collision` for distances, `sim.contact` for points inside objects, more
+//! `sim.stretch_passes` for strain. `sim.start` makes the first step second order. The defaults are
+//! the published method's.
 //!
 //! # Why the sign of a zero never shows
-//! `x` and `last` are never -0.0: no point starts there, and every update is `x + something` or
+//! `x` and `last` are never -0.0: no scene starts a point there, and every update is `x + something` or
 //! `x - something`, which is -0.0 only if `x` was. So a force of +0.0 instead
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
@@ -145,10 +147,10 @@ pub struct Constants {
     pub mass: f64,
     /// Step, in seconds: `1 / fps / T`.
     pub dt: f64,
-    /// What a force of 1 N moves a point in one step, in metres: `dt² / mass`, and with damping
+    /// Displacement by a force in one step, in m/N: `dt² / mass`, and with damping
     /// per second at the rate c that over `1 + c dt / 2` for Verlet, over `1 + c dt` for others.
     pub a2: f64,
-    /// Part of a point's displacement that a step keeps: `1 - damping / 100`, and with damping per
+    /// What a step multiplies a point's displacement by: `1 - damping / 100`, and with damping per
     /// second `(1 - c dt / 2) / (1 + c dt / 2)` for Verlet, `1 / (1 + c dt)` for others.
     pub keep: f64,
     /// Weight of a point, in N.
@@ -183,7 +185,7 @@ impl Constants {
     }
 }
 
-/// What of a cloth stays the same from step to step, as the solvers need it.
+/// The parts of a cloth that stay the same over a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Model<'a> {
     pub(crate) springs: &'a Springs,

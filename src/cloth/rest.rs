@@ -1,7 +1,7 @@
 //! Whether a cloth has come to rest.
 //!
-//! A cloth in contact, or held by the stretch limit, moves to and fro from step to step where its
-//! frames stand still. So both measures are taken over frames: the mean velocity of a point in
+//! A cloth in contact, or held by the stretch limit, may jitter within a frame although every frame
+//! ends alike. So both measures are taken over frames: the mean velocity of a point in
 //! a frame, and what changed it since the frame before, which is all that acts on the point:
 //! forces, contacts and the stretch limit. The second tells rest from the turning point of a swing.
 

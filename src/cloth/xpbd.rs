@@ -7,7 +7,7 @@
 //! becomes `ΔF = (k C - F) / (1 + k Σ a2)`, where `a2 = dt² / m` moves a point by `a2 ΔF`; it holds
 //! for k = 0 too, and with damping through `a2`. One spring alone obeys implicit Euler exactly.
 //! Several do not: even converged, the directions in which they pull are those of earlier passes.
-//! Too few passes leave energy in the springs that nothing gave them: stable, but wrong.
+//! With too few passes the springs gain energy from nowhere: stable, but wrong.
 //!
 //! Velocity is what it is for Verlet's scheme, `(x - last) / dt`, and so holds what the
 //! collisions and the stretch limit of the step before did to the position.

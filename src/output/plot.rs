@@ -52,7 +52,7 @@ pub struct Style {
 }
 
 impl Style {
-    /// The style of series number `index`: colours and markers take turns, so that 30 differ.
+    /// The style of series number `index`: colours and markers take turns, so that 24 differ.
     pub fn of_series(index: usize) -> Self {
         const COLORS: [&str; 6] = ["--a", "--b", "--c", "--d", "--e", "--f"];
         const MARKERS: [Marker; 4] = [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond];

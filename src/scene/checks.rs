@@ -1,4 +1,4 @@
-//! What no key can be asked alone: relations between values of a scene.
+//! Checks that involve more than one key.
 
 use std::collections::BTreeMap;
 
@@ -140,7 +140,7 @@ impl Checks<'_> {
     }
 
     /// Half a step back is where Verlet's scheme has its velocity; the others have it at the start.
-    /// Their residuals and tensions were not made for binary32.
+    /// The other integrators have no binary32 version.
     fn only_verlet(&mut self) {
         let sim = &self.scene.sim;
         if sim.integrator == Integrator::Verlet || !self.clean(&["sim.integrator"]) {

@@ -1,7 +1,7 @@
 //! What a scene is: the validated, strongly typed form of a scene file.
 //!
 //! Data flows `text -> format -> patch -> fields -> checks -> Scene -> Plan`. A [`Scene`] exists only
-//! when every value in it is finite and in range, so nothing further down checks input again.
+//! when every value in the file is finite and in range, so nothing further down checks them again.
 //! Where a range below has no upper end, it ends at 1e15; "> 0" means at least 1e-15, so that
 //! squares and quotients of such numbers stay finite too.
 
@@ -75,7 +75,8 @@ pub struct Cloth {
     pub orientation: Orientation,
     /// Grid points `[x, y]` that never move, each once.
     pub pinned: Vec<[usize; 2]>,
-    /// Percent of a point's displacement that is lost per step (0..=100).
+    /// Percent of a point's displacement that is lost per step, or what `sim.damping` makes of it
+    /// (0..=100).
     pub damping: f64,
     /// Mass per area, in kg/m² (> 0).
     pub density: f64,

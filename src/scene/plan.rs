@@ -1,4 +1,4 @@
-//! What a scene needs and why: decided once, so that nothing else is allocated, read or run.
+//! What a scene needs and why, so that nothing else is allocated, read or run.
 
 use super::{Cloth, Contact, Material, Scene, SelfCollision, Shader};
 

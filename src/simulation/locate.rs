@@ -7,8 +7,7 @@ use crate::cloth::ledger::Recorder;
 use crate::cloth::measure::{fastest_point, longest_spring};
 use crate::error::{Error, Kind, Result};
 
-/// The error of a frame whose first state is `state` after `steps` steps and that fails within
-/// `steps_per_frame` more.
+/// The error of a frame that began at `state`, after `steps` steps, and failed.
 pub(super) fn error(mut state: State, steps: u64, steps_per_frame: u64, guarded: bool) -> Error {
     let last_good = steps / steps_per_frame;
     match first_bad_step(&mut state, steps_per_frame, guarded) {

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-/// The indices of the points `[cost, error]` that no other point beats: none is at most as dear and at
-/// most as wrong, and better in one of the two. In order of their cost. Of equal points the first
+/// The indices of the points `[cost, error]` that no other point beats: none is as cheap and as accurate,
+/// and better in one of the two. In order of their cost. Of equal points the first
 /// counts; points with a number that is not finite do not.
 pub fn hull(points: &[[f64; 2]]) -> Vec<usize> {
     let mut order: Vec<usize> =

@@ -44,7 +44,7 @@ pub struct Moment {
     pub stretch: f64,
 }
 
-/// How far and how dear a run may be.
+/// How long a run is, and what it may cost.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
     /// When it is looked at, in tenths of a second, ascending.
