@@ -3,6 +3,7 @@
 //!
 //! ```
 //! use drape::{
+//!     output::png,
 //!     render::{Options, Renderer},
 //!     scene::{Overrides, load_text},
 //!     simulation::Simulation,
@@ -21,8 +22,12 @@
 //! let picture = renderer.draw(simulation.positions(), &Options::default());
 //! assert_eq!(picture.rgb.len(), 64 * 50 * 3);
 //! assert_eq!(picture.rgb[0], 64, "the background is round(255 · 0.25)");
+//! let file = png::encode(picture.width, picture.height, &picture.rgb, png::Effort::Small)?;
+//! assert!(file.starts_with(b"\x89PNG"));
 //! # Ok::<(), drape::error::Error>(())
 //! ```
+//!
+//! Programs of one's own are closures: [`raster::DrawCall`] has an example.
 //!
 //! # The way of the data
 //! Modules are declared in the order in which data flows; each uses only those above it.

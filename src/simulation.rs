@@ -15,7 +15,7 @@ use stopwatch::Stopwatch;
 use crate::cloth::energy::Energy;
 use crate::cloth::ledger::{Ledger, Recorder};
 use crate::cloth::measure::Extremes;
-use crate::cloth::{Constants, Counters, Points};
+use crate::cloth::{Constants, Counters, Points, pieces};
 use crate::error::Result;
 use crate::math::StateHash;
 use crate::scene::Scene;
@@ -111,7 +111,8 @@ impl Simulation {
         if let Some(cloth) = &mut self.cloth {
             cloth.note_frame_start();
         }
-        (0..self.steps_per_frame).for_each(|_| self.step());
+        let points = self.positions().len();
+        pieces::with_threads(points, || (0..self.steps_per_frame).for_each(|_| self.step()));
         match &self.cloth {
             Some(cloth) if !cloth.is_sound(self.guarded) => {
                 Err(locate::error(cloth.at_frame_start(), before, self.steps_per_frame, self.guarded))

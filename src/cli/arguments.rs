@@ -16,13 +16,17 @@ use crate::output::atomic;
 
 /// A reference cloth simulator and the software rasteriser that shows it.
 #[derive(Parser)]
-#[command(name = "drape", version, max_term_width = 100)]
+#[command(name = "drape", version, max_term_width = 100, after_long_help = EXIT_CODES)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
     #[command(flatten, next_help_heading = "Global options")]
     global: Global,
 }
+
+/// What a command's end says to scripts.
+const EXIT_CODES: &str = "Exit codes: 0 ok, 1 a difference was found, 2 usage, 3 scene or texture invalid, \
+    4 nothing to do, 5 simulation unstable, 6 input or output, 70 internal error, 130 and 143 stopped by a signal.";
 
 /// What holds for every command.
 #[derive(clap::Args)]

@@ -1,6 +1,7 @@
 //! `drape compare-positions`: where the positions of another program part from ours, and why.
 
 mod mistakes;
+mod numbers;
 mod parting;
 mod states;
 mod verdict;

@@ -76,9 +76,15 @@ fn bar(what: &'static str, total: u64) -> ProgressBar {
     bar.with_message(what)
 }
 
-/// `done` of `total` and the seconds left if the rest goes as fast.
+/// Part of the work before which its speed says nothing.
+const EARLY: u64 = 20;
+
+/// `done` of `total` and, after the first twentieth, the seconds left if the rest goes as fast.
 fn line(what: &str, done: u64, total: u64, elapsed: Duration) -> String {
     let left = total.saturating_sub(done);
+    if left == 0 || done < total / EARLY {
+        return format!("{what}: {done} of {total}");
+    }
     #[expect(clippy::cast_precision_loss, reason = "an estimate for people")]
     let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
     format!("{what}: {done} of {total}, about {seconds:.0} s left")
@@ -94,6 +100,9 @@ mod tests {
             line("simulating", 20, 80, Duration::from_secs(10)),
             "simulating: 20 of 80, about 30 s left"
         );
-        assert_eq!(line("x", 0, 0, Duration::ZERO), "x: 0 of 0, about 0 s left");
+        assert_eq!(line("x", 0, 0, Duration::ZERO), "x: 0 of 0");
+        assert_eq!(line("x", 4, 100, Duration::from_secs(9)), "x: 4 of 100");
+        assert_eq!(line("x", 5, 100, Duration::from_secs(1)), "x: 5 of 100, about 19 s left");
+        assert_eq!(line("x", 100, 100, Duration::from_secs(9)), "x: 100 of 100");
     }
 }

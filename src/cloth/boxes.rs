@@ -7,14 +7,15 @@
 use std::mem;
 use std::ops::Range;
 
-use super::{Points, filled};
+use rayon::prelude::*;
+
+use super::sorted::{Key, Sorted};
+use super::{Points, filled, pieces};
+use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
 
-/// A box, as three integers.
-pub(crate) type Key = (i64, i64, i64);
-
 /// Points whose bounds are compared at once.
-const BLOCK: usize = 32;
+const BLOCK: usize = 8;
 
 /// The points of a cloth by box.
 #[derive(Clone, Debug)]
@@ -25,16 +26,16 @@ pub(crate) struct Boxes {
     hash: Option<fn([i64; 3]) -> i64>,
     /// The box of every point.
     keys: Vec<Key>,
-    /// The points by box, and by index within a box.
-    order: Vec<usize>,
-    /// The boxes with two or more points, as ranges of `order`.
-    shared: Vec<Range<usize>>,
-    /// The points that changed their box.
-    changed: Vec<usize>,
-    /// Whether a point is one of `changed`.
-    is_changed: Vec<bool>,
-    /// Room for the next `order`.
-    next_order: Vec<usize>,
+    /// The points by box.
+    sorted: Sorted,
+    /// Room for the next `sorted`.
+    next: Sorted,
+    /// Of each block, whether one of its points may have left its box.
+    restless: Vec<bool>,
+    /// The points that left a box, each after the box.
+    leaving: Vec<(Key, usize)>,
+    /// The points that came into a box, each after the box.
+    coming: Vec<(Key, usize)>,
 }
 
 impl Boxes {
@@ -49,11 +50,11 @@ impl Boxes {
             axes: [Axis::new(sx, points)?, Axis::new(sy, points)?, Axis::new(sz, points)?],
             hash: None,
             keys: filled(points, Key::default())?,
-            order: filled(points, 0)?,
-            shared: filled(points / 2, 0..0)?,
-            changed: filled(points, 0)?,
-            is_changed: filled(points, false)?,
-            next_order: filled(points, 0)?,
+            sorted: Sorted::new(points)?,
+            next: Sorted::new(points)?,
+            restless: filled(points.div_ceil(BLOCK), false)?,
+            leaving: filled(points, (Key::default(), 0))?,
+            coming: filled(points, (Key::default(), 0))?,
         };
         boxes.sort(x);
         Ok(boxes)
@@ -67,16 +68,17 @@ impl Boxes {
 
     /// Sorts all points at `x` into boxes.
     fn sort(&mut self, x: &Points) {
-        self.order.clear();
-        self.changed.clear();
+        self.sorted.clear();
+        self.leaving.clear();
+        self.coming.clear();
         (0..x.len()).for_each(|p| self.place(p, x));
-        self.changed.extend(0..x.len());
+        self.coming.extend(self.keys.iter().copied().zip(0..));
         self.reorder();
     }
 
     /// All points, by box and by index within a box.
     pub(crate) fn order(&self) -> &[usize] {
-        &self.order
+        &self.sorted.order
     }
 
     /// The box of point `p`.
@@ -86,43 +88,51 @@ impl Boxes {
 
     /// How many boxes hold two or more points.
     pub(crate) fn count(&self) -> usize {
-        self.shared.len()
+        self.sorted.shared.len()
     }
 
     /// The points of box `index` (below [`Boxes::count`]), in index order.
     pub(crate) fn members(&self, index: usize) -> &[usize] {
-        &self.order[self.shared[index].clone()]
+        &self.sorted.order[self.sorted.shared[index].clone()]
+    }
+
+    /// Where the members of box `index` start among all points by box.
+    pub(crate) fn start(&self, index: usize) -> usize {
+        self.sorted.shared[index].start
     }
 
     /// Puts every point into its box after the points moved to `x`.
     pub(crate) fn update(&mut self, x: &Points) {
-        self.changed.clear();
-        for start in (0..x.len()).step_by(BLOCK) {
-            let block = start..(start + BLOCK).min(x.len());
-            if self.any_may_leave(block.clone(), x) {
-                block.for_each(|p| self.update_point(p, x));
+        self.find_restless(x);
+        self.leaving.clear();
+        self.coming.clear();
+        for block in 0..self.restless.len() {
+            if self.restless[block] {
+                block_of(block, x.len()).for_each(|p| self.update_point(p, x));
             }
         }
-        if !self.changed.is_empty() {
+        if !self.coming.is_empty() {
             self.reorder();
         }
     }
 
-    /// Whether one of the points `block` at `x` may have left the box where it was.
-    fn any_may_leave(&self, block: Range<usize>, x: &Points) -> bool {
-        let [ax, ay, az] = &self.axes;
-        ax.any_may_leave(block.clone(), &x.x)
-            || ay.any_may_leave(block.clone(), &x.y)
-            || az.any_may_leave(block, &x.z)
+    /// Finds the blocks in which a point at `x` may have left its box.
+    fn find_restless(&mut self, x: &Points) {
+        let axes = &self.axes;
+        let pieces = self.restless.par_chunks_mut(pieces::POINTS / BLOCK);
+        pieces.with_min_len(pieces::at_once(x.len())).enumerate().for_each(|(piece, restless)| {
+            dispatch(Look { axes, x, first: piece * (pieces::POINTS / BLOCK), restless });
+        });
     }
 
     /// Puts point `p` at `x` into its box.
     fn update_point(&mut self, p: usize, x: &Points) {
-        if self.any_may_leave(p..p + 1, x) {
+        if any_may_leave(&self.axes, x, p..p + 1) {
             let old = self.keys[p];
             self.place(p, x);
             if self.keys[p] != old {
-                self.changed.push(p);
+                self.leaving.push((old, p));
+                self.coming.push((self.keys[p], p));
             }
         }
     }
@@ -134,34 +144,42 @@ impl Boxes {
         self.keys[p] = self.hash.map_or((i, j, k), |hash| (hash([i, j, k]), 0, 0));
     }
 
-    /// Merges the points that changed their box into the rest of the order.
+    /// Takes the points that left a box out of the order, and those that came into one in.
     fn reorder(&mut self) {
-        let Self { keys, order, changed, is_changed, next_order, .. } = self;
-        changed.sort_unstable_by_key(|&p| (keys[p], p));
-        changed.iter().for_each(|&p| is_changed[p] = true);
-        let mut incoming = changed.iter().copied().peekable();
-        next_order.clear();
-        for p in order.drain(..).filter(|&p| !is_changed[p]) {
-            while let Some(q) = incoming.next_if(|&q| (keys[q], q) < (keys[p], p)) {
-                next_order.push(q);
-            }
-            next_order.push(p);
-        }
-        next_order.extend(incoming);
-        changed.iter().for_each(|&p| is_changed[p] = false);
-        mem::swap(order, next_order);
-        self.find_shared();
+        let Self { sorted, next, leaving, coming, .. } = self;
+        leaving.sort_unstable();
+        coming.sort_unstable();
+        next.merge(sorted, leaving, coming);
+        mem::swap(sorted, next);
     }
+}
 
-    /// Finds the boxes with two or more points.
-    fn find_shared(&mut self) {
-        self.shared.clear();
-        let mut start = 0;
-        for members in self.order.chunk_by(|&p, &q| self.keys[p] == self.keys[q]) {
-            if members.len() > 1 {
-                self.shared.push(start..start + members.len());
-            }
-            start += members.len();
+/// The points of block `block` of so many points.
+fn block_of(block: usize, points: usize) -> Range<usize> {
+    block * BLOCK..(block * BLOCK + BLOCK).min(points)
+}
+
+/// Whether one of the points `block` at `x` may have left its box.
+#[inline(always)]
+fn any_may_leave(axes: &[Axis; 3], x: &Points, block: Range<usize>) -> bool {
+    let may_leave = |axis: &Axis, x: &[f64]| axis.any_may_leave(block.clone(), x);
+    let [ax, ay, az] = axes;
+    may_leave(ax, &x.x) | may_leave(ay, &x.y) | may_leave(az, &x.z)
+}
+
+/// The look for points that may have left their boxes, from block `first` on.
+struct Look<'a> {
+    axes: &'a [Axis; 3],
+    x: &'a Points,
+    first: usize,
+    restless: &'a mut [bool],
+}
+
+impl Work for Look<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (block, restless) in (self.first..).zip(self.restless) {
+            *restless = any_may_leave(self.axes, self.x, block_of(block, self.x.len()));
         }
     }
 }
@@ -184,6 +202,7 @@ impl Axis {
     }
 
     /// Whether one of the points `block` at `x` may have left the place where it was.
+    #[inline(always)]
     fn any_may_leave(&self, block: Range<usize>, x: &[f64]) -> bool {
         let (x, lower, upper) = (&x[block.clone()], &self.lower[block.clone()], &self.upper[block]);
         let mut all_stay = true;

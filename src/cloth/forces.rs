@@ -42,6 +42,7 @@ impl<T: Real> Forces<T> {
 }
 
 /// The pulls of one family's springs on the points that made them.
+#[inline(always)]
 fn pull<T: Real>(x: &Points<T>, family: &Family, points: Range<usize>, out: [&mut [T]; 3]) {
     let b = points.start - family.offset..points.end - family.offset;
     let [out_x, out_y, out_z] = out;
@@ -53,6 +54,7 @@ fn pull<T: Real>(x: &Points<T>, family: &Family, points: Range<usize>, out: [&mu
 
 /// `e · (k · (l - l0) / l)` for every pair of points a and b, and zero where they meet.
 #[expect(clippy::too_many_arguments, reason = "the compiler trusts separate slices not to overlap")]
+#[inline(always)]
 fn pull_each<T: Real>(
     ax: &[T],
     ay: &[T],

@@ -1,39 +1,48 @@
 //! Sums what the springs do to each point, in the order in which the springs were created.
 //!
-//! What each spring does is computed once, a row of one family at a time, and then summed per point:
-//! first the point's own springs, then those that end at it, in index order of the points that
-//! made them. Those are the right neighbour's, the second to the right's, and of the rows below
-//! the left, the middle, the right and the second.
+//! What each spring does is computed once, a row of one family at a time, and then added to its
+//! ends: a point's own springs first, then those that end at it, in index order of the points that
+//! made them. Those are the right neighbour, the second to the right, and of the rows below the
+//! left, the middle, the right and the second. So the springs of a row give its own points the first
+//! part of their sum, those of the row above the second, and those of the row above that the last.
+//!
+//! Bands of rows are summed on their own: each computes for itself the springs of the two rows
+//! below it that end in it.
 
 use std::array;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::grid::Grid;
+use super::pieces::MANY;
 use super::real::Real;
-use super::springs::{FAMILIES, Family, SpringKind, Springs};
+use super::springs::{FAMILIES, Family, Springs};
 use super::{Points, filled};
+use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
 
 /// Zeros on either side of a row, so that a neighbour outside the grid adds nothing.
 const PAD: usize = 2;
 
+/// Rows of a band of a large cloth: few enough that many threads find work, and enough that
+/// the springs computed twice, about as many as a row has, are few beside them.
+const ROWS: usize = 20;
+
 /// One component of what a row's springs do to the points that made them, one array per family.
 /// Entry `PAD + i` belongs to column i and is 0 where there is no spring.
 type Pulls<T> = [Vec<T>; FAMILIES];
 
-/// The sum over the springs of every point, and room for the springs of three rows.
+/// The sum over the springs of every point.
 #[derive(Clone, Debug)]
 pub(crate) struct Gather<T> {
     /// The sum on every point.
     pub(crate) sum: Points<T>,
-    /// The pulls of row j, by component, in entry j mod 3.
-    rows: [[Pulls<T>; 3]; 3],
-    /// Adds up the pulls on one row.
-    add_up: AddUp<T>,
+    /// Rows of a band.
+    rows: usize,
+    /// Of each band, room for the pulls of a row, by component.
+    bands: Vec<[Pulls<T>; 3]>,
 }
-
-/// Sums one component on a row: out, constant, pulls of its row and the two below.
-type AddUp<T> = fn(&mut [T], T, &Pulls<T>, &Pulls<T>, &Pulls<T>);
 
 impl<T: Real> Gather<T> {
     /// Room for the sums over `springs`.
@@ -41,14 +50,14 @@ impl<T: Real> Gather<T> {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(springs: &Springs) -> Result<Self> {
-        let mut rows: [[Pulls<T>; 3]; 3] =
-            array::from_fn(|_| array::from_fn(|_| array::from_fn(|_| Vec::new())));
-        for pulls in rows.iter_mut().flatten() {
-            for family in &springs.families {
-                pulls[family.slot] = filled(springs.grid.width + 2 * PAD, T::default())?;
-            }
+        let Grid { width, height } = springs.grid;
+        let rows = if springs.grid.len() < MANY { height } else { ROWS };
+        let mut pulls: [Pulls<T>; 3] = array::from_fn(|_| array::from_fn(|_| Vec::new()));
+        for slot in pulls.iter_mut().flatten() {
+            *slot = filled(width + 2 * PAD, T::default())?;
         }
-        Ok(Self { sum: Points::filled(springs.grid.len())?, rows, add_up: add_up_for(springs) })
+        let bands = filled(height.div_ceil(rows), pulls)?;
+        Ok(Self { sum: Points::filled(springs.grid.len())?, rows, bands })
     }
 
     /// Sums `constant` and what each spring does to its ends: `pull` computes, for the springs of a
@@ -58,115 +67,113 @@ impl<T: Real> Gather<T> {
         &mut self,
         springs: &Springs,
         constant: [T; 3],
-        pull: impl Fn(usize, &Family, Range<usize>, [&mut [T]; 3]),
+        pull: impl Fn(usize, &Family, Range<usize>, [&mut [T]; 3]) + Sync,
     ) {
-        let Grid { width, height } = springs.grid;
-        for j in 0..height + 2 {
-            self.pull_row(springs, j, &pull);
-            if let Some(done) = j.checked_sub(2) {
-                self.sum_row(done, done * width..(done + 1) * width, constant);
-            }
+        let rows = self.rows;
+        let [x, y, z] = self.sum.components_mut().map(|sum| sum.par_chunks_mut(rows * springs.grid.width));
+        let bands = self.bands.par_iter_mut().zip(x).zip(y).zip(z).enumerate();
+        bands.for_each(|(band, (((pulls, x), y), z))| {
+            let (start, end) = (band * rows, (band * rows + rows).min(springs.grid.height));
+            dispatch(Band { springs, constant, pull: &pull, rows: start..end, pulls, sum: [x, y, z] });
+        });
+    }
+}
+
+/// The sums on a band of rows.
+struct Band<'a, T, P> {
+    springs: &'a Springs,
+    constant: [T; 3],
+    pull: &'a P,
+    rows: Range<usize>,
+    pulls: &'a mut [Pulls<T>; 3],
+    sum: [&'a mut [T]; 3],
+}
+
+impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Work for Band<'_, T, P> {
+    #[inline(always)]
+    fn run(mut self) {
+        for j in self.rows.start..self.springs.grid.height.min(self.rows.end + 2) {
+            self.pull_row(j);
+            self.sum_row(j);
         }
     }
+}
 
-    /// Computes what the springs do that the points of row `j` made.
-    fn pull_row(
-        &mut self,
-        springs: &Springs,
-        j: usize,
-        pull: impl Fn(usize, &Family, Range<usize>, [&mut [T]; 3]),
-    ) {
-        let pulls = &mut self.rows[j % 3];
-        for (index, family) in springs.families.iter().enumerate() {
-            let out = pulls.each_mut().map(|component| component[family.slot].as_mut_slice());
-            if family.rows.contains(&j) {
-                let (start, n) = (family.columns.start, family.columns.len());
-                let a = j * springs.grid.width + start;
-                pull(index, family, a..a + n, out.map(|out| &mut out[PAD + start..][..n]));
-            } else {
+impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P> {
+    /// Computes what those springs do that the points of row `j` made and that end in the band.
+    #[inline(always)]
+    fn pull_row(&mut self, j: usize) {
+        for (index, family) in self.springs.families.iter().enumerate() {
+            let out = self.pulls.each_mut().map(|component| component[family.slot].as_mut_slice());
+            let up = family.rows.start;
+            if j < up {
                 out.into_iter().for_each(|component| component.fill(T::default()));
+            } else if j - up < self.rows.end {
+                let (start, n) = (family.columns.start, family.columns.len());
+                let a = j * self.springs.grid.width + start;
+                (self.pull)(index, family, a..a + n, out.map(|out| &mut out[PAD + start..][..n]));
             }
         }
     }
 
-    /// Sums on row `j`, whose points are `points`.
-    fn sum_row(&mut self, j: usize, points: Range<usize>, constant: [T; 3]) {
-        let [own, below, below2] = [0, 1, 2].map(|rows| &self.rows[(j + rows) % 3]);
-        let sum = [&mut self.sum.x, &mut self.sum.y, &mut self.sum.z];
-        for (c, sum) in sum.into_iter().enumerate() {
-            (self.add_up)(&mut sum[points.clone()], constant[c], &own[c], &below[c], &below2[c]);
+    /// Adds what the springs do that the points of row `j` made to the sums of the band.
+    #[inline(always)]
+    fn sum_row(&mut self, j: usize) {
+        let Self { springs, constant, rows, pulls, sum, .. } = self;
+        let width = springs.grid.width;
+        let above = |up: usize| {
+            let row = j.checked_sub(rows.start + up).filter(|row| *row < rows.len());
+            row.map(|row| row * width..(row + 1) * width)
+        };
+        for ((sum, pulls), constant) in sum.iter_mut().zip(pulls.iter()).zip(*constant) {
+            if let Some(row) = above(0) {
+                sum_own(&mut sum[row], constant, pulls);
+            }
+            if let Some(row) = above(1) {
+                take_from_above(&mut sum[row], pulls);
+            }
+            if let Some(row) = above(2) {
+                take_from_above2(&mut sum[row], pulls);
+            }
         }
     }
 }
 
-/// The sum for the kinds that `springs` has.
-fn add_up_for<T: Real>(springs: &Springs) -> AddUp<T> {
-    let has = |kind| springs.has(kind);
-    match (has(SpringKind::Structural), has(SpringKind::Shearing), has(SpringKind::Bending)) {
-        (false, false, false) => add_up::<T, false, false, false>,
-        (false, false, true) => add_up::<T, false, false, true>,
-        (false, true, false) => add_up::<T, false, true, false>,
-        (false, true, true) => add_up::<T, false, true, true>,
-        (true, false, false) => add_up::<T, true, false, false>,
-        (true, false, true) => add_up::<T, true, false, true>,
-        (true, true, false) => add_up::<T, true, true, false>,
-        (true, true, true) => add_up::<T, true, true, true>,
+/// Starts the sums of the row that made `pulls`.
+#[inline(always)]
+fn sum_own<T: Real>(sum: &mut [T], constant: T, pulls: &Pulls<T>) {
+    let n = sum.len();
+    let [left, above, upper_left, upper_right, left2, above2] =
+        array::from_fn(|slot| made_by(pulls, slot, 0, n));
+    let (right, right2) = (made_by(pulls, 0, 1, n), made_by(pulls, 4, 2, n));
+    for (i, sum) in sum.iter_mut().enumerate() {
+        let own = constant + left[i] + above[i] + upper_left[i] + upper_right[i] + left2[i] + above2[i];
+        *sum = own - right[i] - right2[i];
     }
 }
 
-/// Sums one component on a row in creation order.
-fn add_up<T: Real, const STRUCTURAL: bool, const SHEARING: bool, const BENDING: bool>(
-    out: &mut [T],
-    constant: T,
-    own: &Pulls<T>,
-    below: &Pulls<T>,
-    below2: &Pulls<T>,
-) {
-    let n = out.len();
-    let [left, above] = [0, 1].map(|slot| made_by(own, slot, 0, n, STRUCTURAL));
-    let [upper_left, upper_right] = [2, 3].map(|slot| made_by(own, slot, 0, n, SHEARING));
-    let [left2, above2] = [4, 5].map(|slot| made_by(own, slot, 0, n, BENDING));
-    let from_right = made_by(own, 0, 1, n, STRUCTURAL);
-    let from_right2 = made_by(own, 4, 2, n, BENDING);
-    let from_lower_left = made_by(below, 3, -1, n, SHEARING);
-    let from_below = made_by(below, 1, 0, n, STRUCTURAL);
-    let from_lower_right = made_by(below, 2, 1, n, SHEARING);
-    let from_below2 = made_by(below2, 5, 0, n, BENDING);
-    for (i, out) in out.iter_mut().enumerate() {
-        let mut f = constant;
-        if STRUCTURAL {
-            f = f + left[i] + above[i];
-        }
-        if SHEARING {
-            f = f + upper_left[i] + upper_right[i];
-        }
-        if BENDING {
-            f = f + left2[i] + above2[i];
-        }
-        if STRUCTURAL {
-            f = f - from_right[i];
-        }
-        if BENDING {
-            f = f - from_right2[i];
-        }
-        if SHEARING {
-            f = f - from_lower_left[i];
-        }
-        if STRUCTURAL {
-            f = f - from_below[i];
-        }
-        if SHEARING {
-            f = f - from_lower_right[i];
-        }
-        if BENDING {
-            f = f - from_below2[i];
-        }
-        *out = f;
+/// Goes on with the sums of the row above the one that made `pulls`.
+#[inline(always)]
+fn take_from_above<T: Real>(sum: &mut [T], pulls: &Pulls<T>) {
+    let n = sum.len();
+    let (left, middle, right) = (made_by(pulls, 3, -1, n), made_by(pulls, 1, 0, n), made_by(pulls, 2, 1, n));
+    for (i, sum) in sum.iter_mut().enumerate() {
+        *sum = *sum - left[i] - middle[i] - right[i];
+    }
+}
+
+/// Ends the sums of the second row above the one that made `pulls`.
+#[inline(always)]
+fn take_from_above2<T: Real>(sum: &mut [T], pulls: &Pulls<T>) {
+    let n = sum.len();
+    for (sum, &pull) in sum.iter_mut().zip(made_by(pulls, 5, 0, n)) {
+        *sum = *sum - pull;
     }
 }
 
 /// The pulls of family `slot` that a row of `n` points gets from the points `right` columns to
-/// its right; nothing when the family does not exist.
-fn made_by<T>(pulls: &Pulls<T>, slot: usize, right: isize, n: usize, exists: bool) -> &[T] {
-    if exists { &pulls[slot][PAD.wrapping_add_signed(right)..][..n] } else { &[] }
+/// its right.
+#[inline(always)]
+fn made_by<T>(pulls: &Pulls<T>, slot: usize, right: isize, n: usize) -> &[T] {
+    &pulls[slot][PAD.wrapping_add_signed(right)..][..n]
 }

@@ -4,7 +4,15 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// A binary floating-point number whose + - × ÷ and square root are exactly rounded.
 pub(crate) trait Real:
-    Copy + Default + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+    Copy
+    + Default
+    + PartialEq
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
 {
     /// The nearest number of this type.
     fn nearest(value: f64) -> Self;
@@ -13,10 +21,12 @@ pub(crate) trait Real:
 }
 
 impl Real for f64 {
+    #[inline(always)]
     fn nearest(value: f64) -> Self {
         value
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
     }
@@ -24,10 +34,12 @@ impl Real for f64 {
 
 impl Real for f32 {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
+    #[inline(always)]
     fn nearest(value: f64) -> Self {
         value as Self
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
     }

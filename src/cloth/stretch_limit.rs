@@ -1,16 +1,16 @@
 //! Phase 5: the stretch limit of Provot 1995. A spring that is too long is shortened to its limit
 //! by moving its ends, in creation order, each seeing what the one before it did.
 //!
-//! Most springs are not too long, so the springs of a row, and then of a block of its points, are
-//! first looked at all at once. That keeps every bit: the look comes right before their turn, so
-//! it sees the positions that the pass would see, and a pass that finds no spring too long moves
-//! nothing.
+//! Most springs are not too long, so those of a block of points are first looked at all at once.
+//! That keeps every bit: the look sees the positions that the pass would see, and a pass that finds
+//! no spring too long moves nothing. It comes right before their turn, or, for a large cloth, on
+//! several threads before the pass; then it is repeated where an end may have moved since.
 
-use std::ops::Range;
+use rayon::prelude::*;
 
-use super::grid::{Grid, Pins};
+use super::grid::Pins;
 use super::springs::{Family, Springs};
-use super::{Counters, Points, dot, filled};
+use super::{Counters, Points, dot, filled, pieces};
 use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
 use crate::scene::Vec3;
@@ -28,8 +28,11 @@ pub(crate) struct StretchLimit {
     factor: f64,
     /// Passes per step.
     passes: u32,
-    /// Of each family and point, a squared length that every spring over the limit reaches, in m².
+    /// Of each family and point, a squared length that every spring over the limit reaches, in m²;
+    /// NaN, which nothing reaches, for points without one.
     reach: Vec<Vec<f64>>,
+    /// Of each block of a large cloth, whether a spring may be too long before the pass.
+    long: Vec<bool>,
 }
 
 impl StretchLimit {
@@ -41,60 +44,50 @@ impl StretchLimit {
         let factor = 1.0 + limit;
         let mut reach = Vec::with_capacity(springs.families.len());
         for family in &springs.families {
-            let mut squares = filled(family.rest.len(), 0.0)?;
-            for (square, rest) in squares.iter_mut().zip(&family.rest) {
-                *square = (factor * rest) * (factor * rest) * MARGIN;
+            let mut squares = filled(family.rest.len(), f64::NAN)?;
+            for a in family.points(springs.grid) {
+                squares[a] = (factor * family.rest[a]) * (factor * family.rest[a]) * MARGIN;
             }
             reach.push(squares);
         }
-        Ok(Self { factor, passes, reach })
+        let points = springs.grid.len();
+        let blocks = if points < pieces::MANY { 0 } else { points.div_ceil(BLOCK) };
+        Ok(Self { factor, passes, reach, long: filled(blocks, false)? })
     }
 
     /// Shortens the springs that are too long, in creation order.
-    pub(crate) fn apply(&self, x: &mut Points, springs: &Springs, pins: &Pins, counters: &mut Counters) {
+    pub(crate) fn apply(&mut self, x: &mut Points, springs: &Springs, pins: &Pins, counters: &mut Counters) {
         for _ in 0..self.passes {
+            self.look_ahead(x, springs);
             dispatch(Pass { limit: self, x, springs, pins, counters });
             counters.springs_checked += springs.len() as u64;
         }
     }
 
-    /// Whether a spring made by the points of row `j` and `columns` may be too long.
-    #[inline(always)]
-    fn any_long(&self, x: &Points, springs: &Springs, j: usize, columns: &Range<usize>) -> bool {
-        for (family, reach) in springs.families.iter().zip(&self.reach) {
-            let start = columns.start.max(family.columns.start);
-            let n = columns.end.min(family.columns.end).saturating_sub(start);
-            let row = j * springs.grid.width;
-            if family.rows.contains(&j) && any_reaches(x, row + start, family.offset, n, reach) {
-                return true;
-            }
-        }
-        false
+    /// Finds the blocks of a large cloth in which a spring may be too long.
+    fn look_ahead(&mut self, x: &Points, springs: &Springs) {
+        let Self { reach, long, .. } = self;
+        let at_once = pieces::POINTS / BLOCK;
+        long.par_chunks_mut(at_once).enumerate().for_each(|(piece, long)| {
+            dispatch(Look { x, springs, reach, first: piece * at_once, long });
+        });
     }
 
-    /// Shortens the springs made by the points of row `j` and `columns`.
-    fn shorten(
-        &self,
-        x: &mut Points,
-        springs: &Springs,
-        pins: &Pins,
-        j: usize,
-        columns: Range<usize>,
-        counters: &mut Counters,
-    ) {
-        for i in columns {
-            let a = j * springs.grid.width + i;
+    /// Shortens the springs made by the points from `a` on, up to a block of them; how many.
+    fn shorten(&self, x: &mut Points, springs: &Springs, pins: &Pins, start: usize) -> u64 {
+        let mut count = 0;
+        for a in start..(start + BLOCK).min(x.len()) {
             for (family, reach) in springs.families.iter().zip(&self.reach) {
-                if family.rows.contains(&j) && family.columns.contains(&i) {
-                    let e = x.get(a - family.offset) - x.get(a);
-                    let square = dot(e, e);
-                    if square >= reach[a] {
-                        let moved = self.shorten_spring(x, e, square.sqrt(), family, a, pins);
-                        counters.springs_limited += u64::from(moved);
-                    }
+                // A point without the spring may have no other end.
+                let Some(b) = a.checked_sub(family.offset) else { continue };
+                let e = x.get(b) - x.get(a);
+                let square = dot(e, e);
+                if square >= reach[a] {
+                    count += u64::from(self.shorten_spring(x, e, square.sqrt(), family, a, pins));
                 }
             }
         }
+        count
     }
 
     /// Shortens the spring of `family` that point `a` made, which has length `l` and leads along
@@ -140,41 +133,71 @@ impl Work for Pass<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { limit, x, springs, pins, counters } = self;
-        let Grid { width, height } = springs.grid;
-        for j in 0..height {
-            if !limit.any_long(x, springs, j, &(0..width)) {
-                continue;
-            }
-            for start in (0..width).step_by(BLOCK) {
-                let columns = start..(start + BLOCK).min(width);
-                if limit.any_long(x, springs, j, &columns) {
-                    limit.shorten(x, springs, pins, j, columns, counters);
+        // A spring ends at most two rows above; up to here an end may have moved since the look ahead.
+        let two_rows = 2 * springs.grid.width;
+        let mut moved_to = if limit.long.is_empty() { x.len() } else { 0 };
+        for (block, start) in (0..x.len()).step_by(BLOCK).enumerate() {
+            let long =
+                if start < moved_to { any_long(x, springs, &limit.reach, start) } else { limit.long[block] };
+            if long {
+                let shortened = limit.shorten(x, springs, pins, start);
+                counters.springs_limited += shortened;
+                if shortened > 0 {
+                    moved_to = moved_to.max(start + BLOCK + two_rows);
                 }
             }
         }
     }
 }
 
-/// Whether one of the `n` springs from the points at `a` to those `offset` before them reaches
-/// its squared length in `reach`.
-///
-/// A spring over its limit does: `sqrt(d) > max` after rounding makes d at least max² but for the
-/// rounding of two squares and a root, which is far below [`MARGIN`]; the comparison takes equal
-/// numbers in, for lengths whose squares are too small for a relative margin.
-#[inline(always)]
-fn any_reaches(x: &Points, a: usize, offset: usize, n: usize, reach: &[f64]) -> bool {
-    if n == 0 {
-        return false;
+/// The look at blocks from `first` on.
+struct Look<'a> {
+    x: &'a Points,
+    springs: &'a Springs,
+    reach: &'a [Vec<f64>],
+    first: usize,
+    long: &'a mut [bool],
+}
+
+impl Work for Look<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (block, long) in (self.first..).zip(self.long) {
+            *long = any_long(self.x, self.springs, self.reach, block * BLOCK);
+        }
     }
-    let b = a - offset;
-    let (ax, bx) = (&x.x[a..][..n], &x.x[b..][..n]);
-    let (ay, by) = (&x.y[a..][..n], &x.y[b..][..n]);
-    let (az, bz) = (&x.z[a..][..n], &x.z[b..][..n]);
-    let reach = &reach[a..][..n];
+}
+
+/// Whether a spring made by the points from `start` on, up to a block of them, may be too long.
+/// The blocks in the first two rows, where a spring may have no other end, and the last one, if
+/// it is not a whole block, always may.
+///
+/// A spring over its limit reaches its squared length in `reach`: `sqrt(d) > max` after rounding
+/// makes d at least max² but for the rounding of two squares and a root, which is far below
+/// [`MARGIN`]; the comparison takes equal numbers in, for lengths whose squares are too small
+/// for a relative margin.
+#[inline(always)]
+fn any_long(x: &Points, springs: &Springs, reach: &[Vec<f64>], start: usize) -> bool {
+    let [Some(ax), Some(ay), Some(az)] = x.components().map(|component| block(component, start)) else {
+        return true;
+    };
     let mut any = false;
-    for i in 0..n {
-        let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
-        any |= ex * ex + ey * ey + ez * ez >= reach[i];
+    for (family, reach) in springs.families.iter().zip(reach) {
+        let Some(b) = start.checked_sub(family.offset) else { return true };
+        let [Some(bx), Some(by), Some(bz)] = x.components().map(|component| block(component, b)) else {
+            return true;
+        };
+        let Some(reach) = block(reach, start) else { return true };
+        for i in 0..BLOCK {
+            let (ex, ey, ez) = (bx[i] - ax[i], by[i] - ay[i], bz[i] - az[i]);
+            any |= ex * ex + ey * ey + ez * ez >= reach[i];
+        }
     }
     any
+}
+
+/// The numbers of a block that begins at `start`, if it is a whole one.
+#[inline(always)]
+fn block(numbers: &[f64], start: usize) -> Option<&[f64; BLOCK]> {
+    numbers.get(start..)?.first_chunk()
 }

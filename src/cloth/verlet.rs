@@ -1,7 +1,9 @@
 //! Verlet's scheme (Verlet 1967): the next position from the last two.
 
+use rayon::prelude::*;
+
 use super::grid::Pins;
-use super::{Constants, Counters, Points};
+use super::{Constants, Counters, Points, pieces};
 
 /// Moves every unpinned point on by one step of `constants.dt`:
 /// `new = x + (x - last) · keep + f · dt²/m`, `last = x`, `x = new`. `force` is in N.
@@ -13,13 +15,16 @@ pub(crate) fn advance(
     constants: &Constants,
     counters: &mut Counters,
 ) {
-    for run in &pins.free {
-        let run = || run.clone();
-        advance_run(&mut x.x[run()], &mut last.x[run()], &force.x[run()], constants);
-        advance_run(&mut x.y[run()], &mut last.y[run()], &force.y[run()], constants);
-        advance_run(&mut x.z[run()], &mut last.z[run()], &force.z[run()], constants);
-        counters.points_advanced += run().len() as u64;
-    }
+    let state = x.cut_mut().zip(last.cut_mut()).zip(force.cut()).enumerate();
+    state.for_each(|(piece, ((x, last), force))| {
+        let components = x.into_iter().zip(last).zip(force);
+        components.for_each(|((x, last), force)| {
+            for run in pieces::within(&pins.free, piece) {
+                advance_run(&mut x[run.clone()], &mut last[run.clone()], &force[run], constants);
+            }
+        });
+    });
+    counters.points_advanced += pins.free_points();
 }
 
 /// One component of consecutive points.

@@ -12,9 +12,10 @@ use crate::error::{Error, Kind, Result};
 const MAX_SIDE: u32 = 16_384;
 
 /// How hard the encoder works.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Effort {
     /// Several times faster than small, about twice the size: for sequences.
+    #[default]
     Fast,
     /// As small as the encoder can: for files that are kept under version control.
     Small,

@@ -51,6 +51,36 @@ type VertexStage<'a> = Box<dyn Fn(&Viewport, &mut VertexBuffer) + Send + Sync + 
 type FragmentStage<'a> = Box<dyn Fn(&ShadeInput<'_>, &mut FragmentList) + Send + Sync + 'a>;
 
 /// A mesh with its two programs.
+///
+/// Any closures of the right shape are programs, and a number that the vertex program puts out
+/// reaches the fragment program interpolated. A triangle in stripes:
+///
+/// ```
+/// use drape::lanes::{Lane, Wide};
+/// use drape::mesh::Attributes;
+/// use drape::raster::{DrawCall, Framebuffer, Primitives, draw};
+/// use drape::shader::glsl::vec3;
+///
+/// let corners = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let attributes = |i: usize| Attributes { in_position: corners[i], ..Attributes::default() };
+/// let vertex_program = |a: &Attributes| {
+///     let [x, y, z] = a.in_position;
+///     ([x, y, z, 1.0], [x])
+/// };
+/// let fragment_program = |&[x]: &[Wide<f32>; 1]| {
+///     let stripes = x * Lane::splat(4.0);
+///     let part = stripes - stripes.floor();
+///     vec3(part, Lane::splat(0.5), Lane::splat(1.0) - part)
+/// };
+/// let triangle = Primitives::Triangles(&[[0, 1, 2]]);
+/// let call = DrawCall::new::<Wide<f32>, 1>(triangle, 3, attributes, vertex_program, fragment_program);
+/// let mut framebuffer = Framebuffer::new(64, 64, 1);
+/// let (stats, _) = draw(&mut framebuffer, [0.0; 3], &[call], false);
+/// assert_eq!(stats.covered, 64 * 64 / 2);
+/// assert_eq!(framebuffer.rgb()[3 * (63 * 64 + 32)..][..3], [8, 128, 247], "the first stripe's start");
+/// ```
+///
+/// Eight fragments are shaded side by side; `L` = `f32` shades one at a time, with the same bits.
 pub struct DrawCall<'a> {
     primitives: Primitives<'a>,
     vertex_stage: VertexStage<'a>,

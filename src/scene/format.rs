@@ -202,7 +202,9 @@ fn loose_character(text: &str) -> Option<(Range, &'static str)> {
 fn reason(kind: &ParseErrorKind) -> String {
     use ParseErrorKind as K;
     match kind {
-        K::MultipleRootJsonValues => "nothing may follow the scene's closing brace".into(),
+        K::MultipleRootJsonValues => {
+            "nothing may follow: a scene ends with its closing brace, and a list stands in brackets".into()
+        }
         K::UnterminatedObject => "this object is never closed".into(),
         K::UnterminatedArray => "this list is never closed".into(),
         K::UnexpectedToken | K::UnexpectedWord => "this is no JSON value".into(),

@@ -137,7 +137,7 @@ impl State {
         }
 
         // 5. Stretch limit: springs that are too long are shortened.
-        if let Some(stretch_limit) = &self.stretch_limit {
+        if let Some(stretch_limit) = &mut self.stretch_limit {
             stretch_limit.apply(x, springs, pins, counters);
             stopwatch.lap(|timings| &mut timings.stretch_limit);
             book(x, last, |ledger| &mut ledger.stretch_limit);

@@ -76,6 +76,28 @@ fn mistakes_that_can_be_run_are_named() {
     }
 }
 
+/// A program that reads another number than the scene's: its value is found, to the digits it was given in.
+#[test]
+fn wrong_numbers_are_found_by_their_values() {
+    let gravity =
+        |y: &str| HANGING.replace("\"render\"", &format!(r#""sim": {{"gravity": [0, {y}, 0]}}, "render""#));
+    for (theirs, name) in [
+        (HANGING.replace("\"damping\": 0.2", "\"damping\": 0.4"), "cloth.damping of 0.4 instead of 0.2"),
+        (gravity("-10"), "gravity of 10 instead of 9.8"),
+        (gravity("-4.905"), "gravity of 4.905 instead of 9.8"),
+        (
+            HANGING.replace("5000", "7000"),
+            "cloth.ks (or density the other way round) of 7000 instead of 5000",
+        ),
+        (HANGING.replace("150", "100"), "cloth.ks (or density the other way round) of 7500 instead of 5000"),
+        (HANGING.replace("\"render\"", r#""sim": {"fps": 60}, "render""#), "sim.fps of 60 instead of 90"),
+    ] {
+        let report = compared(HANGING, raw(&positions(&theirs, Mistakes::default(), 10)), &[], 1);
+        let verdict = report["verdict"].as_str().expect("a verdict");
+        assert_eq!(verdict, format!("this behaves like the mistake: {name}"));
+    }
+}
+
 #[test]
 fn a_missing_offset_of_the_plane_is_named() {
     let text = HANGING.replace(

@@ -11,7 +11,7 @@ use crate::simulation::Simulation;
 /// A mistake, and the simulation that does what the mistaken program does.
 pub(super) struct Mistake {
     /// What is done instead of what.
-    pub(super) name: &'static str,
+    pub(super) name: String,
     scene: Scene,
     /// What no scene can say.
     change: Option<Change>,
@@ -29,6 +29,11 @@ enum Change {
 }
 
 impl Mistake {
+    /// The mistake of having another scene.
+    pub(super) fn of(name: impl Into<String>, scene: Scene) -> Self {
+        Self { name: name.into(), scene, change: None }
+    }
+
     /// A simulation that makes the mistake, from `start` on if that is given.
     ///
     /// # Errors
@@ -68,15 +73,15 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
 
 /// Mistakes that are another scene.
 fn scenes(scene: &Scene) -> Vec<Mistake> {
-    let with = |name, change: fn(&mut Scene)| {
+    let with = |name: &str, change: fn(&mut Scene)| {
         let mut scene = scene.clone();
         change(&mut scene);
-        Mistake { name, scene, change: None }
+        Mistake::of(name, scene)
     };
-    let with_cloth = |name, change: fn(&mut Cloth)| {
+    let with_cloth = |name: &str, change: fn(&mut Cloth)| {
         let mut scene = scene.clone();
         scene.cloth.as_mut().into_iter().for_each(change);
-        Mistake { name, scene, change: None }
+        Mistake::of(name, scene)
     };
     vec![
         with_cloth("points width / W apart instead of width / (W - 1)", wide_pitch),
@@ -159,8 +164,8 @@ fn joined([x, y, z]: [i64; 3]) -> i64 {
     bits(x) << 42 | bits(y) << 21 | bits(z)
 }
 
-fn changed(name: &'static str, scene: &Scene, change: Change) -> Mistake {
-    Mistake { name, scene: scene.clone(), change: Some(change) }
+fn changed(name: &str, scene: &Scene, change: Change) -> Mistake {
+    Mistake { name: name.to_owned(), scene: scene.clone(), change: Some(change) }
 }
 
 /// A smaller cloth of the same mass and with the same number of points.

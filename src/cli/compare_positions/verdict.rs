@@ -11,6 +11,7 @@ use super::super::Session;
 use super::super::progress::Tally;
 use super::super::scene::frame_at;
 use super::mistakes::{self, Mistake};
+use super::numbers::{NUMBERS, Target};
 use super::parting::{Ours, ROUNDING, largest};
 use super::states::State;
 use crate::cloth::{Counters, Points};
@@ -56,7 +57,7 @@ pub(super) struct Verdict {
 /// A mistake that was run.
 #[derive(Serialize)]
 pub(super) struct Tried {
-    mistake: &'static str,
+    mistake: String,
     /// 0: the mistake explains everything, 1: nothing; the largest number there is: it led nowhere.
     pub(super) left: f64,
 }
@@ -98,11 +99,15 @@ impl Case<'_> {
                  operations in another order",
             ));
         }
-        let mistakes = self.try_all(&mistakes::all(self.scene), k, session)?;
+        let mut mistakes = self.try_all(&mistakes::all(self.scene), k, session)?;
+        if mistakes.first().is_none_or(|best| best.left > EXPLAINS) {
+            mistakes.extend(self.try_all(&self.wrong_numbers(k, session)?, k, session)?);
+            mistakes.sort_by(|a, b| a.left.total_cmp(&b.left));
+        }
         let words = match mistakes.first() {
             Some(best) if best.left <= EXPLAINS => {
                 let all = mistakes.iter().take_while(|tried| tried.left <= EXPLAINS);
-                let names: Vec<&str> = all.map(|tried| tried.mistake).collect();
+                let names: Vec<&str> = all.map(|tried| tried.mistake.as_str()).collect();
                 format!("this behaves like the mistake: {}", names.join("; or: "))
             }
             Some(best) if best.left <= RESEMBLES => {
@@ -217,12 +222,22 @@ impl Case<'_> {
         let tried = mistakes.iter().zip(left);
         let mut tried: Vec<Tried> = tried
             .map(|(mistake, left)| Tried {
-                mistake: mistake.name,
+                mistake: mistake.name.clone(),
                 left: if left.is_finite() { left } else { f64::MAX },
             })
             .collect();
         tried.sort_by(|a, b| a.left.total_cmp(&b.left));
         Ok(tried)
+    }
+
+    /// The scene's numbers with the values that fit state `k` best, each as a mistake.
+    fn wrong_numbers(&self, k: usize, session: &Session) -> Result<Vec<Mistake>> {
+        let (state, frame) = (&self.theirs[k], self.first_frame + k as u64);
+        let target =
+            Target { scene: self.scene, cloth: self.cloth, start: self.start.as_ref(), frame, state };
+        let watch = || session.signals.check();
+        let fitted = NUMBERS.par_iter().map(|number| number.fit(&target, &watch));
+        Ok(fitted.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
     /// What no run can tell apart, but acted before the positions parted.
@@ -248,7 +263,7 @@ impl Case<'_> {
             ""
         };
         format!(
-            "none of the mistakes that can be run, or two at once; up to there acted \
+            "none of the mistakes that can be run, or two at once. What had acted by then, so where to look: \
              {always}{acted}{single}{depths}"
         )
     }
