@@ -205,15 +205,19 @@ fn interpolate<L: Lane, const N: usize>(
     let (x0, y0) = (<L::Double as Lane>::splat(x0), <L::Double as Lane>::splat(y0));
     let x = x0 + L::Double::from_fn(|i| f32::from(pixels[i] % TILE_SIDE));
     let y = y0 - L::Double::from_fn(|i| f32::from(pixels[i] / TILE_SIDE));
-    let mut lane = Some(0);
-    while let Some(first) = lane {
-        let primitive = primitives[first];
+    let (first, mut previous) = (primitives[0], 0);
+    let alone = primitives.iter().fold(true, |all, &other| all & (other == first));
+    for (i, &primitive) in primitives.iter().enumerate().take(if alone { 1 } else { WIDTH }) {
+        // Three triangles or more may be interpolated again, which changes nothing.
+        if primitive == previous || (i > 0 && primitive == first) {
+            continue;
+        }
         let plane = &mut planes[primitive as usize % PLANES];
         if plane.primitive != primitive {
             *plane = Plane::of(input, primitive);
         }
         let at = plane.interpolate::<L>(x, y);
-        if first == 0 {
+        if i == 0 {
             result = at;
         } else {
             let mut mask = [false; WIDTH];
@@ -224,20 +228,9 @@ fn interpolate<L: Lane, const N: usize>(
                 *result = result.replace(&mask, at);
             }
         }
-        lane = next_triangle(primitives, first);
+        previous = primitive;
     }
     result
-}
-
-/// The first lane after `lane` whose triangle is neither that of the lane before it nor the first one. Of
-/// three or more, one may be met and interpolated again, which changes nothing.
-#[inline(always)]
-fn next_triangle(primitives: &[Handle], lane: usize) -> Option<usize> {
-    if primitives.iter().fold(true, |all, &other| all & (other == primitives[0])) {
-        return None;
-    }
-    let is_new = |&i: &usize| primitives[i] != primitives[i - 1] && primitives[i] != primitives[0];
-    (lane + 1..primitives.len()).find(is_new)
 }
 
 /// Triangles that are kept ready for interpolation: about as many as meet in two rows of a tile.
