@@ -100,9 +100,9 @@ fn a_page_of_some_figures_shows_these() {
 #[test]
 fn an_unknown_figure_is_refused_before_anything_is_made() {
     let folder = folder();
-    let output = drape(folder.path(), &["gallery", "--only", "part1-al"]);
+    let output = drape(folder.path(), &["gallery", "--only", "art1-all"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("no figure `part1-al`") && said.contains("part5-cclothr"), "{said}");
+    assert!(said.contains("no figure `art1-all`") && said.contains("part5-cclothr"), "{said}");
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use drape::error::{Error, Kind, Result};
-use drape::scene::Overrides;
-use drape::study::matrix::{Extent, METHODS, Source};
+use drape::scene::{Integrator, Overrides};
+use drape::study::matrix::{Cell, Extent, METHODS, Source, panels};
 use drape::study::runs::Outcome;
 use drape::study::store::Store;
 use drape::study::{self, Cost, Results, Study};
@@ -178,8 +178,38 @@ fn runs_can_be_picked_by_their_names() {
         assert_eq!(cell.errors, whole.cells[same].errors);
     }
     assert!(part.pictures.is_none() && !study::page(&part, "scene.json").unwrap().contains("No pictures"));
-    let none = Extent { only: vec!["BDF3".to_owned()], ..extent() };
-    assert_eq!(study::steps(&source, &none).map_err(|e| e.kind), Err(Kind::Usage));
+    let page = study::page(&part, "scene.json").unwrap();
+    assert!(page.contains("at 0.1, 0.2 s, without stretch limit and self-collision"), "{page}");
+    assert!(page.contains("the scene's cloth: 150 kg/m², stable at worst from 600 steps/s"), "{page}");
+}
+
+/// By any part of a name, however it is written, and by the integrator as a scene has it.
+#[test]
+fn runs_are_asked_for_by_name_or_integrator() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = source(folder.path());
+    let extent = Extent { densities: vec![1.0, 1e-3], ..extent() };
+    let asked = |only: &[&str]| {
+        let only = only.iter().map(|&text| text.to_owned()).collect();
+        panels(&source, &Extent { only, ..extent.clone() })
+    };
+    let cells =
+        |only: &[&str]| asked(only).unwrap().into_iter().flat_map(|panel| panel.cells).collect::<Vec<_>>();
+    let count = |is: &dyn Fn(&Cell) -> bool| cells(&[]).iter().filter(|cell| is(cell)).count();
+    for integrator in [Integrator::Verlet, Integrator::Xpbd, Integrator::ImplicitEuler, Integrator::Bdf2] {
+        let named = cells(&[integrator.name()]);
+        assert!(named.iter().all(|cell| cell.scene.sim.integrator == integrator), "{}", integrator.name());
+        assert_eq!(named.len(), count(&|cell| cell.scene.sim.integrator == integrator));
+    }
+    assert_eq!(cells(&["BDF2, LOOSE"]).len(), count(&|cell| METHODS[cell.method].name == "BDF2, loose"));
+    assert_eq!(cells(&["bdf2", "xpbd", "bdf3"]).len(), cells(&["bdf2"]).len() + cells(&["xpbd"]).len());
+    assert_eq!(asked(&["K/M 1.20E8"]).unwrap().len(), 1);
+    let names: Vec<String> = asked(&[]).unwrap().iter().map(|panel| panel.cloth()).collect();
+    assert_eq!(names, ["the scene's cloth", "1/1000 of the scene's density"]);
+    let refused = asked(&["bdf3"]).unwrap_err();
+    assert_eq!(refused.kind, Kind::Usage);
+    let known = METHODS.iter().map(|method| method.name).chain(["k/m 1.20e5", "k/m 1.20e8"]);
+    known.for_each(|name| assert!(refused.help.contains(name), "{name}: {}", refused.help));
 }
 
 #[test]

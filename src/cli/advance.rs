@@ -86,12 +86,12 @@ pub(super) fn certain(stability: &Stability, ks: f64, steps: u32) -> Error {
     let message = format!(
         "unstable before the first step: dt·ω = {found} > {limit_text} (ks {ks} N/m, m {mass} kg, dt {dt:.4e} s)"
     );
-    let [fewest, safe] = [stability.fewest_steps_rest(), stability.fewest_steps_worst()];
-    let softer = rounded_down(ks * (limit / (dt * omega_rest)) * (limit / (dt * omega_rest)));
+    let [fewest, fewest_worst] = [stability.fewest_steps_rest(), stability.fewest_steps_worst()];
+    let [softer, softer_worst] = largest_ks(stability, ks);
     let help = format!(
-        "raise steps_per_frame from {steps} to at least {fewest}, or lower ks below {softer}; {safe} hold at \
-         worst: --set sim.steps_per_frame={safe} (damping per step acts that much more often); \
-         --allow-unstable runs on"
+        "raise steps_per_frame from {steps} to at least {fewest} at rest, {fewest_worst} at worst: --set \
+         sim.steps_per_frame={fewest_worst} (damping per step acts that much more often); or lower ks to at most \
+         {softer} at rest, {softer_worst} at worst; --allow-unstable runs on"
     );
     Error::new(Kind::Unstable, message).with_help(help)
 }
@@ -101,7 +101,7 @@ fn possible(stability: &Stability, steps: u32) -> String {
     let Stability { dt, limit_worst, omega_rest, omega_safe, .. } = *stability;
     let undamped = if limit_worst < stability.limit { " without damping" } else { "" };
     format!(
-        "the cloth may become unstable in motion: dt·ω is {:.3} at rest but up to {:.3} at worst, and only below \
+        "the cloth may become unstable in motion: dt·ω is {:.3} at rest but {:.3} at worst, and only below \
          {limit_worst:.3} is it stable{undamped}; steps_per_frame {} instead of {steps} is stable at worst",
         dt * omega_rest,
         dt * omega_safe,
@@ -116,10 +116,27 @@ fn apart(a: f64, b: f64) -> (String, String) {
     (2..16).map(text).find(|(a, b)| a != b).unwrap_or_else(|| text(16))
 }
 
-/// `value` with four digits, not above it.
+/// The largest ks of four digits, in N/m, at which a cloth of `ks` would be stable at rest and at worst;
+/// not finite if the springs have no stiffness.
+pub(super) fn largest_ks(stability: &Stability, ks: f64) -> [f64; 2] {
+    let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
+    [limit / (dt * omega_rest), limit_worst / (dt * omega_safe)].map(|part| {
+        // At the bound itself the cloth is not stable; of another ks ω is rounded otherwise.
+        rounded_down(ks * part * part * (1.0 - 1e-9))
+    })
+}
+
+/// The largest number of four digits that is not above `value` (> 0).
 fn rounded_down(value: f64) -> f64 {
-    // Half a unit of the last digit is at most 5e-4 of the number.
-    format!("{:.3e}", value * (1.0 - 5e-4)).parse().unwrap_or(value)
+    let text = format!("{value:.3e}");
+    let near = text.parse().unwrap_or(value);
+    match text.split_once('e').and_then(|(digits, exponent)| Some((digits.parse::<f64>().ok()?, exponent))) {
+        Some((digits, exponent)) if near > value => {
+            let unit = if digits == 1.0 { 1e-4 } else { 1e-3 };
+            format!("{:.4}e{exponent}", digits - unit).parse().unwrap_or(value)
+        }
+        _ => near,
+    }
 }
 
 /// Until when a cloth is moved.
@@ -230,4 +247,24 @@ fn advance_while(
     let elapsed = started.elapsed();
     session.ui.remark(&format!("simulated {} frames in {:.3} s", simulation.frame(), elapsed.as_secs_f64()));
     Ok(elapsed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_down_to_four_digits() {
+        for (value, digits) in [
+            (58012.3, 58010.0),
+            (58019.9, 58010.0),
+            (9.99999, 9.999),
+            (99998.0, 99990.0),
+            (0.12, 0.12),
+            (1e5, 1e5),
+        ] {
+            assert_eq!(rounded_down(value), digits, "{value}");
+        }
+        assert!(rounded_down(f64::NAN).is_nan() && rounded_down(f64::INFINITY).is_infinite());
+    }
 }

@@ -12,7 +12,7 @@ use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
 use crate::gallery::page::{self, Entry};
 use crate::gallery::shot::{self, Shot, Shown, State};
-use crate::gallery::table::{Figure, Part, Picture, parts};
+use crate::gallery::table::{Part, Picture, parts};
 use crate::output::atomic::{self, Content};
 
 /// The name of the page.
@@ -24,8 +24,8 @@ pub(super) struct Args {
     /// Folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Make this figure, repeatable (default: all 51, in 56 pictures, since five have another beside them);
-    /// the page then shows no other
+    /// Make this figure, or if none is called so all whose names begin so, such as `part5`, repeatable (default: all
+    /// 51, in 56 pictures, since five have another beside them); the page then shows no other
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Width and height of the pictures in pixels (default: the report's 1024x800)
@@ -78,15 +78,18 @@ impl Args {
     /// The figures that are asked for.
     fn parts(&self) -> Result<Vec<Part>> {
         let mut parts = parts()?;
-        let known = |name: &&String| parts.iter().flat_map(|p| &p.figures).any(|f| f.name() == *name);
-        if let Some(name) = self.only.iter().find(|name| !known(name)) {
-            let names: Vec<_> = parts.iter().flat_map(|part| &part.figures).map(Figure::name).collect();
-            let error = Error::new(Kind::Usage, format!("there is no figure `{name}`"));
+        let names: Vec<String> =
+            parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
+        let is_asked = |figure: &str, text: &String| {
+            figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
+        };
+        if let Some(text) = self.only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
+            let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
             return Err(error.with_help(format!("the figures are {}", names.join(", "))));
         }
         if !self.only.is_empty() {
             for part in &mut parts {
-                part.figures.retain(|figure| self.only.iter().any(|name| name == figure.name()));
+                part.figures.retain(|figure| self.only.iter().any(|text| is_asked(figure.name(), text)));
             }
         }
         Ok(parts)
@@ -163,6 +166,24 @@ mod tests {
     fn pictures() -> Vec<Picture> {
         let parts = parts().unwrap();
         parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
+    }
+
+    #[test]
+    fn figures_are_picked_by_their_name_or_its_beginning() {
+        let picked = |only: &[&str]| {
+            let only = only.iter().map(|&name| name.to_owned()).collect();
+            let args = Args { out: PathBuf::new(), only, size: None, pictures: false };
+            let parts = args.parts().map_err(|e| e.kind)?;
+            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
+        };
+        let part5 = picked(&["part5"]).unwrap();
+        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
+        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
+        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
+        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
+        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
+        assert_eq!(picked(&[]).unwrap().len(), 51);
+        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
     }
 
     /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::advance::largest_ks;
 use super::scene::{SceneArgs, frame_at};
 use super::{Session, counts};
 use crate::cloth::Constants;
@@ -56,8 +57,15 @@ struct Bound {
     dt_omega_rest: f64,
     dt_omega_worst: f64,
     dt_omega_limit: f64,
+    /// The same at worst, where a cloth without damping has a lower one.
+    dt_omega_limit_worst: f64,
     fewest_steps_rest: f64,
     fewest_steps_worst: f64,
+    /// The most ks at this step, N/m; infinite, and left out, for springs without stiffness.
+    largest_ks_rest: Option<f64>,
+    largest_ks_worst: Option<f64>,
+    #[serde(skip)]
+    steps_per_frame: u32,
 }
 
 /// The largest arrays, in bytes; a lower bound of what a run takes.
@@ -126,7 +134,9 @@ impl ClothInfo {
             mass,
             dt,
             integrator: scene.sim.integrator.name(),
-            bound: stability.as_ref().map(Bound::of),
+            bound: stability
+                .as_ref()
+                .map(|stability| Bound::of(stability, cloth.ks, scene.sim.steps_per_frame)),
             stable: stability.as_ref().map_or("no step bound", verdict),
         })
     }
@@ -150,21 +160,36 @@ impl ClothInfo {
 }
 
 impl Bound {
-    fn of(stability: &Stability) -> Self {
-        let Stability { dt, limit, omega_rest, omega_safe, .. } = *stability;
+    fn of(stability: &Stability, ks: f64, steps_per_frame: u32) -> Self {
+        let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
+        let [largest_ks_rest, largest_ks_worst] =
+            largest_ks(stability, ks).map(|ks| Some(ks).filter(|ks| ks.is_finite()));
         Self {
             dt_omega_rest: dt * omega_rest,
             dt_omega_worst: dt * omega_safe,
             dt_omega_limit: limit,
+            dt_omega_limit_worst: limit_worst,
             fewest_steps_rest: stability.fewest_steps_rest(),
             fewest_steps_worst: stability.fewest_steps_worst(),
+            largest_ks_rest,
+            largest_ks_worst,
+            steps_per_frame,
         }
     }
 
     fn text(&self, stable: &str) -> String {
+        let steps = self.steps_per_frame;
+        let ks = self.largest_ks_rest.zip(self.largest_ks_worst).map_or_else(String::new, |(rest, worst)| {
+            format!("ks          at most {rest} N/m at rest, {worst} at worst, at {steps} steps per frame\n")
+        });
+        let undamped = if self.dt_omega_limit_worst < self.dt_omega_limit {
+            format!(" at rest and {:.4} at worst", self.dt_omega_limit_worst)
+        } else {
+            String::new()
+        };
         format!(
-            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}: {stable}\n\
-             steps       at least {} per frame at rest, {} at worst\n",
+            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}{undamped}: {stable}\n\
+             steps       at least {} per frame at rest, {} at worst\n{ks}",
             self.dt_omega_rest,
             self.dt_omega_worst,
             self.dt_omega_limit,

@@ -9,10 +9,15 @@ use super::scene::SceneArgs;
 use super::{Session, outputs};
 use crate::error::{Error, Kind, Result};
 use crate::output::atomic::{self, Content};
+use crate::output::page::short;
 use crate::scene::{Cloth, Scene};
 use crate::stability_map::extremes::{self, Row};
 use crate::stability_map::range::Values;
 use crate::stability_map::{Axes, Column, Map, page};
+
+/// Stiffness, density and steps of the whole map, and of a quick one, as the help has them.
+const FULL: [&str; 3] = ["500..500000:log7", "1.5..1500:log4", "1..500:log10"];
+const QUICK: [&str; 3] = ["500..500000:log3", "1.5..1500:log3", "1..300:log6"];
 
 /// What `stability` takes.
 #[derive(clap::Args)]
@@ -22,19 +27,20 @@ pub(super) struct Args {
     /// Folder for index.html and results.json
     #[arg(value_name = "OUT", default_value = "stability")]
     out: PathBuf,
-    /// Stiffness in N/m: `500..500000:log4`, `lin` for even steps, or `500,5000`
+    /// Stiffness in N/m: `500..500000:log4` for 4 values with equal ratios, `:lin4` with equal differences, or
+    /// `500,5000` (default: 500..500000:log7; --quick: 500..500000:log3)
     #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
     ks: Option<Values>,
-    /// Density in kg/m², in the same form
+    /// Density in kg/m², in the same form (default: 1.5..1500:log4; --quick: 1.5..1500:log3)
     #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
     density: Option<Values>,
-    /// Steps per frame, in the same form
+    /// Steps per frame, in the same form (default: 1..500:log10; --quick: 1..300:log6)
     #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
     steps: Option<Values>,
-    /// Simulated time of each run, in seconds
+    /// Simulated time of each run, in seconds (default: 0.5; --quick: 0.2)
     #[arg(long, value_name = "S", value_parser = super::scene::seconds)]
     time: Option<f64>,
-    /// A coarse map, shorter runs
+    /// A coarse map, shorter runs: half a minute of processor time for scenes/pinned2.json, instead of three minutes
     #[arg(long)]
     quick: bool,
 }
@@ -81,12 +87,7 @@ impl Args {
     }
 
     fn axes(&self) -> Axes {
-        let defaults = if self.quick {
-            ["500..500000:log3", "1.5..1500:log3", "1..300:log6"]
-        } else {
-            ["500..500000:log7", "1.5..1500:log4", "1..500:log10"]
-        };
-        let [ks, density, steps] = defaults;
+        let [ks, density, steps] = if self.quick { QUICK } else { FULL };
         let values = |asked: &Option<Values>, text: &str| match asked {
             Some(values) => values.clone(),
             None => Values::parse(text).unwrap_or(Values(Vec::new())),
@@ -105,17 +106,19 @@ impl Args {
     }
 }
 
-/// The thresholds, the extremes that broke their promise, and where the page is.
+/// The thresholds, what came of the extremes, those that broke their promise, and where the page is.
 fn text(map: &Map, rows: &[Row], index: &Path) -> String {
-    let steps = |found: Option<f64>| found.map_or_else(|| "-".to_owned(), |steps| format!("{steps:.1}"));
+    let steps = |found: Option<f64>| found.map_or_else(|| "-".to_owned(), |steps| page::rate(steps, map.fps));
     let line = |column: &Column| {
-        let [rest, safe, _] = column.theory;
+        let [rest, worst, _] = column.theory;
         format!(
-            "{:>10} {:>10} {rest:12.1} {:>12} {:>12} {safe:12.1}\n",
-            page::short(column.density),
-            page::short(column.ks),
+            "{:>10} {:>10} {:>15} {:>15} {:>15} {:>15}\n",
+            short(column.density),
+            short(column.ks),
+            steps(Some(rest)),
             steps(column.at_rest),
-            steps(column.in_motion)
+            steps(column.in_motion),
+            steps(Some(worst)),
         )
     };
     let columns: String = map.columns.iter().map(line).collect();
@@ -123,16 +126,45 @@ fn text(map: &Map, rows: &[Row], index: &Path) -> String {
     let broken: String =
         broken.map(|row| format!("broken promise: {}: {}\n", row.what, row.happened)).collect();
     format!(
-        "fewest stable steps a second\n{:>10} {:>10} {:>12} {:>12} {:>12} {:>12}\n{columns}\
-         extremes     {} of {} kept their promise\n{broken}page         {}\n",
+        "fewest stable steps a second, in brackets per frame\n\
+         {:>10} {:>10} {:>15} {:>15} {:>15} {:>15}\n{columns}\
+         extremes     {} (docs/extremes.md)\n{broken}page         {}\n",
         "density",
         "ks",
-        "rest, theory",
-        "rest, tried",
-        "in motion",
-        "safe, theory",
-        rows.iter().filter(|row| row.kept).count(),
-        rows.len(),
+        "at rest",
+        "tried at rest",
+        "tried in motion",
+        "at worst",
+        extremes::headline(rows),
         index.display(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+
+    use super::super::arguments::{Arguments, Command};
+    use super::*;
+
+    #[test]
+    fn the_help_has_the_defaults() {
+        let mut all = Arguments::command();
+        let help = all.find_subcommand_mut("stability").unwrap().render_long_help().to_string();
+        for default in FULL.iter().chain(&QUICK) {
+            assert!(Values::parse(default).is_ok() && help.contains(default), "{default}: {help}");
+        }
+        let axes = |option: &[&str]| {
+            let words = ["drape", "stability", "a.json"].iter().chain(option);
+            match Arguments::try_parse_from(words).unwrap().command {
+                Command::Stability(args) => args.axes(),
+                _ => panic!("another command"),
+            }
+        };
+        let [full, quick] = [axes(&[]), axes(&["--quick"])];
+        assert_eq!([full.ks.len(), full.density.len(), full.steps.len()], [7, 4, 10]);
+        for axes in [full, quick] {
+            assert!(help.contains(&format!(": {}", axes.time)), "{} s: {help}", axes.time);
+        }
+    }
 }

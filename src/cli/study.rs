@@ -24,7 +24,8 @@ pub(super) struct Args {
     /// A small matrix, in under two minutes for a cloth of 50 x 50 points
     #[arg(long)]
     quick: bool,
-    /// Only runs with this in their name, and no pictures, repeatable: `k/m 8.33e4`, `BDF2 at 600 steps/s`
+    /// Only runs with this in their name, however written, or with this integrator, and no pictures: `bdf2`,
+    /// `xpbd`, `BDF2 at 600 steps/s`, `k/m 8.33e4`; repeated: the runs of any of them
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
     /// Take textures from this folder (texture_1.png .. and cube/posx.png ..) instead of the built-in set
@@ -32,7 +33,7 @@ pub(super) struct Args {
     textures: Option<PathBuf>,
 }
 
-/// Runs what is not kept from an earlier study, writes the report, prints the advice.
+/// Runs what is not kept from an earlier study, writes the page, prints the advice.
 pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     args.scene.load(session)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
@@ -62,7 +63,7 @@ pub(super) fn run(args: &Args, session: &Session) -> Result<()> {
     atomic::write(&json, &bytes)?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
     atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
-    session.ui.note(&format!("{}: the report", page.display()));
+    session.ui.note(&format!("{}: the page", page.display()));
     session.print(&results, &results.text())
 }
 

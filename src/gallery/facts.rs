@@ -63,18 +63,21 @@ fn looks(scene: &Scene) -> Vec<String> {
 
 /// How far the step is from what the springs stand.
 pub(super) fn margin(state: &State) -> String {
-    let Some(Stability { dt, limit, omega_rest, omega_safe, .. }) = state.stability else {
+    let Some(stability) = state.stability else {
         return "Nothing moves, so there is no step.".to_owned();
     };
-    let (rest, safe) = (dt * omega_rest, dt * omega_safe);
-    let verdict = if safe < limit {
-        "stable in every configuration"
-    } else if rest < limit {
-        "stable at rest, and not proven so when the cloth is sheared and compressed"
+    let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = stability;
+    let (rest, worst) = (dt * omega_rest, dt * omega_safe);
+    let undamped =
+        if limit_worst < limit { format!(" at rest, {limit_worst:.3} at worst") } else { String::new() };
+    let verdict = if stability.is_always_stable() {
+        "stable at worst"
+    } else if !stability.is_unstable_at_rest() {
+        "stable at rest, not at worst"
     } else {
         "unstable"
     };
-    format!("dt·ω = {rest:.3} at rest, at most {safe:.3}; the limit is {limit:.3}: {verdict}.")
+    format!("dt·ω = {rest:.3} at rest, {worst:.3} at worst; the limit is {limit:.3}{undamped}: {verdict}.")
 }
 
 /// What each phase put in or took out until the moment, and what is left of it as motion.

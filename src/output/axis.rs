@@ -17,12 +17,21 @@ pub struct Axis {
     pub(super) label: String,
     range: [f64; 2],
     scale: Scale,
+    /// The only tick, where there is but one value to be shown.
+    only: Option<(f64, String)>,
 }
 
 impl Axis {
     /// An axis from `low` to `high`, called `label`, which names its unit.
     pub fn new(label: &str, scale: Scale, low: f64, high: f64) -> Self {
-        Self { label: label.to_owned(), range: [low, high], scale }
+        Self { label: label.to_owned(), range: [low, high], scale, only: None }
+    }
+
+    /// A logarithmic axis with `value` (> 0) in its middle, whose only tick says `text`: for a cell from
+    /// half to twice the value, which takes up a third of it.
+    pub fn around(label: &str, value: f64, text: &str) -> Self {
+        let only = Some((value, text.to_owned()));
+        Self { only, ..Self::new(label, Scale::Log, value / 8.0, value * 8.0) }
     }
 
     /// A logarithmic axis of whole decades that holds all of `values` that are above 0 and finite;
@@ -51,15 +60,42 @@ impl Axis {
         }
     }
 
-    /// The numbers at ticks with their text: powers of ten, every nth one if there are many; on a
-    /// linear axis 1, 2 or 5 times a power of ten apart.
+    /// The numbers at ticks with their text, at least two or the only one. On a logarithmic axis
+    /// powers of ten, every nth one if there are many, or 1, 2 and 5 times them if there are few; on a
+    /// linear one, or where these are few too, 1, 2 or 5 times a power of ten apart.
     pub(super) fn ticks(&self) -> Vec<(f64, String)> {
-        let [low, high] = self.range;
-        if self.scale == Scale::Log {
-            let [first, last] = [(log10(low) - 1e-9).ceil(), (log10(high) + 1e-9).floor()];
-            let apart = ((last - first) / 6.0).ceil().max(1.0);
-            return steps(first, last, apart).map(|e| (power_of_ten(e), format!("1e{e}"))).collect();
+        if let Some(only) = &self.only {
+            return vec![only.clone()];
         }
+        let logarithmic = [Self::powers, Self::parts].into_iter().map(|ticks| ticks(self));
+        let mut enough = logarithmic.filter(|ticks| self.scale == Scale::Log && ticks.len() > 1);
+        enough.next().unwrap_or_else(|| self.even())
+    }
+
+    /// Powers of ten, at most seven.
+    fn powers(&self) -> Vec<(f64, String)> {
+        let [first, last] = self.exponents();
+        let apart = ((last - first) / 6.0).ceil().max(1.0);
+        steps(first, last, apart).map(|e| (power_of_ten(e), format!("1e{e}"))).collect()
+    }
+
+    /// 1, 2 and 5 times powers of ten.
+    fn parts(&self) -> Vec<(f64, String)> {
+        let [first, last] = self.exponents();
+        let parts = steps(first - 1.0, last, 1.0).flat_map(|e| [1.0, 2.0, 5.0].map(|n| n * power_of_ten(e)));
+        let [low, high] = self.range;
+        parts.filter(|at| (low..=high).contains(at)).map(|at| (at, at.to_string())).collect()
+    }
+
+    /// The powers of ten that are on the axis: the first and the last one's exponent.
+    fn exponents(&self) -> [f64; 2] {
+        let [low, high] = self.range;
+        [(log10(low) - 1e-9).ceil(), (log10(high) + 1e-9).floor()]
+    }
+
+    /// Numbers 1, 2 or 5 times a power of ten apart.
+    fn even(&self) -> Vec<(f64, String)> {
+        let [low, high] = self.range;
         let rough = power_of_ten(log10((high - low) / 6.0).floor());
         let apart = [1.0, 2.0, 5.0, 10.0].map(|n| n * rough).into_iter().find(|n| (high - low) / n <= 6.0);
         let apart = apart.unwrap_or(10.0 * rough);
@@ -112,6 +148,17 @@ mod tests {
         for (x, place) in [(0.01, 0.0), (0.1, 0.25), (1.0, 0.5), (100.0, 1.0)] {
             assert!((log.place(x) - place).abs() < 1e-15, "{x}: {}", log.place(x));
         }
+    }
+
+    #[test]
+    fn short_logarithmic_axes_have_ticks_too() {
+        let ticks = |low, high| texts(&Axis::new("", Scale::Log, low, high));
+        assert_eq!(ticks(0.6, 500.0), ["1e0", "1e1", "1e2"]);
+        assert_eq!(ticks(5.3, 24.0), ["10", "20"]);
+        assert_eq!(ticks(30.0, 85.0), ["30", "40", "50", "60", "70", "80"], "by even steps");
+        assert_eq!(ticks(2.6, 4.4), ["3", "3.5", "4"]);
+        let one = Axis::around("", 30.0, "thirty");
+        assert_eq!((texts(&one), one.place(30.0)), (vec!["thirty".to_owned()], 0.5));
     }
 
     #[test]

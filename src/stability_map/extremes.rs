@@ -64,6 +64,16 @@ pub fn table(
     rows.collect()
 }
 
+/// What `rows` come to, in a sentence.
+pub fn headline(rows: &[Row]) -> String {
+    let kept = rows.iter().filter(|row| row.kept).count();
+    format!(
+        "{kept} of {} scenes with a value at the end of its range did as promised: they ran, or were refused before \
+         the first step",
+        rows.len()
+    )
+}
+
 /// How many rows the table has.
 pub fn len() -> usize {
     EXTREMES.len()

@@ -1,15 +1,17 @@
 //! Outcome over stiffness, density and step: where a cloth is stable, tried cell by cell, against
 //! the three lines that theory draws.
 //!
-//! The lines are `steps a second = ω / limit` with ω² from 8 ks/m (the fastest vibration of the
-//! lattice at rest), 12 ks/m (the most in any configuration) and 17.6 ks/m (Gershgorin's circles,
+//! The lines are `steps a second = ω / limit`, the limit at rest or at worst, with ω² from 8 ks/m (the fastest vibration of the
+//! lattice at rest), 12 ks/m (at worst: the most in any shape) and 17.6 ks/m (Gershgorin's circles,
 //! for which nothing but the stiffness that meets in a point is known); `src/cloth/stability.rs`
 //! derives the first two and the limit. Cells and columns do not depend on each other, so that
 //! they are spread over threads and the map is the same for every number of them.
 
 pub mod extremes;
+mod legend;
 pub mod outcome;
 pub mod page;
+mod panel;
 pub mod range;
 pub mod threshold;
 
@@ -55,7 +57,7 @@ pub struct Column {
     pub density: f64,
     /// In N/m.
     pub ks: f64,
-    /// Steps a second that theory asks for at rest, in any configuration, and after Gershgorin.
+    /// Steps a second that theory asks for at rest, at worst, and after Gershgorin.
     pub theory: [f64; 3],
     /// Steps a second found by trying, at rest ([`threshold::at_rest`]).
     pub at_rest: Option<f64>,
@@ -135,13 +137,14 @@ impl Column {
     fn new(scene: &Scene, cloth: &Cloth, material: [f64; 2], time: f64) -> Result<Self> {
         let scene = made_of(scene, cloth, material);
         let cloth = scene.cloth.as_ref().unwrap_or(cloth);
-        let Stability { omega_rest, omega_safe, limit, mass, .. } = Stability::new(cloth, &scene.sim)?;
+        let Stability { omega_rest, omega_safe, limit, limit_worst, mass, .. } =
+            Stability::new(cloth, &scene.sim)?;
         let omega_gershgorin = (gershgorin(cloth) / mass).sqrt();
         let [density, ks] = material;
         Ok(Self {
             density,
             ks,
-            theory: [omega_rest, omega_safe, omega_gershgorin].map(|omega| omega / limit),
+            theory: [omega_rest / limit, omega_safe / limit_worst, omega_gershgorin / limit_worst],
             at_rest: threshold::at_rest(&scene, cloth)?,
             in_motion: threshold::in_motion(&scene, cloth, time)?,
         })

@@ -11,9 +11,9 @@ use crate::simulation::Simulation;
 pub enum Outcome {
     /// Nothing of what follows.
     Ok,
-    /// A spring was stretched by more than twice what the stretch limit allows.
+    /// A spring was stretched by more than twice what the stretch limit allows (the stretch bound).
     Stretch,
-    /// The cloth held more energy than its forces can give it (`src/cloth/guard.rs`).
+    /// The cloth held more energy than its forces can give it (the energy bound, `src/cloth/guard.rs`).
     Energy,
     /// A position was no number, or beyond 1e15 m.
     Lost,

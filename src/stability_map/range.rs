@@ -41,8 +41,14 @@ impl Values {
 
 /// From `first` to the last and in the manner that `rest` = `LAST:logN` or `LAST:linN` says.
 fn spread(first: f64, rest: &str) -> Result<Vec<f64>, String> {
-    let form = || "write FIRST..LAST:logN or FIRST..LAST:linN, such as 1e2..1e9:log8".to_owned();
-    let (last, manner) = rest.split_once(':').ok_or_else(form)?;
+    let form = || "write FIRST..LAST:logN or FIRST..LAST:linN for N values, such as 1e2..1e9:log8".to_owned();
+    let Some((last, manner)) = rest.split_once(':') else {
+        number(rest)?;
+        return Err(
+            "say how many values: add `:log7` for seven with equal ratios, `:lin7` with equal differences"
+                .to_owned(),
+        );
+    };
     let last = number(last)?;
     let (is_log, count) = match (manner.strip_prefix("log"), manner.strip_prefix("lin")) {
         (Some(count), _) => (true, count),
@@ -83,6 +89,7 @@ mod tests {
 
     #[test]
     fn what_is_no_range_is_refused() {
+        assert!(Values::parse("1000..1e6").unwrap_err().contains("add `:log7`"));
         for text in
             ["", "0", "-1", "nan", "1..2", "1..2:log", "1..2:log1", "1..2:lin201", "1..2:cubic3", "1..x:log3"]
         {

@@ -121,7 +121,8 @@ pub struct Extent {
     pub picture_width: u32,
     /// Latitude counts of drawn spheres; longitudes are as many.
     pub resolutions: Vec<u32>,
-    /// Parts of the names of the runs to make, as [`Panel::name`] has them, and no pictures; if none, all.
+    /// Parts of the names of the runs to make, as [`Panel::name`] has them, or their integrators, and no pictures;
+    /// if none, all.
     pub only: Vec<String>,
 }
 
@@ -169,9 +170,11 @@ impl Extent {
 pub struct Panel {
     /// Mass per area, in kg/m².
     pub density: f64,
+    /// The same as a part of the scene's.
+    pub part: f64,
     /// Stiffness of a structural spring over the mass of a point, in 1/s².
     pub k_over_m: f64,
-    /// Steps per second that are stable in every configuration.
+    /// Steps per second that are stable at worst, in every shape of the cloth.
     pub stable_rate: f64,
     /// The cells, method by method, in order of their steps.
     pub cells: Vec<Cell>,
@@ -197,6 +200,20 @@ impl Panel {
     pub fn name(&self, cell: &Cell) -> String {
         format!("k/m {:.2e}: {}", self.k_over_m, run_name(cell.method, cell.rate))
     }
+
+    /// Which cloth it is, against the scene's: `the scene's cloth`, or `1/1000 of the scene's density`.
+    pub fn cloth(&self) -> String {
+        if self.part == 1.0 {
+            return "the scene's cloth".to_owned();
+        }
+        format!("1/{:.0} of the scene's density", 1.0 / self.part)
+    }
+
+    /// Whether a cell is asked for by `text`: a part of its name, however written, or its integrator.
+    fn is_called(&self, cell: &Cell, text: &str) -> bool {
+        let text = text.to_lowercase();
+        self.name(cell).to_lowercase().contains(&text) || cell.scene.sim.integrator.name() == text
+    }
 }
 
 /// A run in words, such as `BDF2 at 600 steps/s`.
@@ -216,24 +233,41 @@ pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth to be studied"));
     };
-    let panels = extent.densities.iter().map(|part| panel(source, &scene, cloth.density * part, extent));
+    let panels =
+        extent.densities.iter().map(|part| panel(source, &scene, [cloth.density * part, *part], extent));
     let mut panels = panels.collect::<Result<Vec<_>>>()?;
     if extent.only.is_empty() {
         return Ok(panels);
     }
+    let names = known(&panels);
     for panel in &mut panels {
-        let is_asked = |cell: &Cell| extent.only.iter().any(|part| panel.name(cell).contains(part));
+        let is_asked = |cell: &Cell| extent.only.iter().any(|text| panel.is_called(cell, text));
         panel.cells = panel.cells.iter().filter(|cell| is_asked(cell)).cloned().collect();
     }
     panels.retain(|panel| !panel.cells.is_empty());
     if panels.is_empty() {
         let error = Error::new(Kind::Usage, format!("no run is called `{}`", extent.only.join("` or `")));
-        return Err(error.with_help("runs are called such as `k/m 8.33e4: BDF2 at 600 steps/s`"));
+        return Err(error.with_help(names));
     }
     Ok(panels)
 }
 
-fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Result<Panel> {
+/// What the runs of `panels` can be asked for by.
+fn known(panels: &[Panel]) -> String {
+    let stiffness = panels.iter().map(|panel| format!("`k/m {:.2e}`", panel.k_over_m));
+    let methods: Vec<_> = METHODS.iter().map(|method| format!("`{}`", method.name)).collect();
+    let example = panels.iter().find_map(|panel| Some(panel.name(panel.cells.last()?)));
+    format!(
+        "the stiffnesses of this scene are {}; the methods are {}; a whole name is such as `{}`; the integrators are \
+         `verlet`, `xpbd`, `implicit_euler`, `bdf2`",
+        stiffness.collect::<Vec<_>>().join(", "),
+        methods.join(", "),
+        example.unwrap_or_default(),
+    )
+}
+
+/// The panel of the density that is this `part` of the scene's.
+fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Extent) -> Result<Panel> {
     let mut sets: Vec<String> = MODEL.iter().map(ToString::to_string).collect();
     sets.push(format!("cloth.density={density:?}"));
     let scene = source.scene(&sets)?;
@@ -241,10 +275,12 @@ fn panel(source: &Source, stock: &Scene, density: f64, extent: &Extent) -> Resul
         return Err(Error::new(Kind::Internal, "the cloth is gone"));
     };
     let mass = Constants::new(cloth, &scene.sim).mass;
-    let stable_rate = (0.5 * Stability::new(cloth, &scene.sim)?.omega_safe).max(50.0);
+    let Stability { omega_safe, limit_worst, .. } = Stability::new(cloth, &scene.sim)?;
+    let stable_rate = (omega_safe / limit_worst).max(50.0);
     let rates = rates(stock, stable_rate, cloth, extent);
     let mut panel = Panel {
         density,
+        part,
         k_over_m: cloth.ks / mass,
         stable_rate,
         cells: Vec::new(),

@@ -8,7 +8,7 @@ use super::pictures::Pictures;
 use super::{Cost, PanelStudy, Study};
 use crate::error::Result;
 use crate::output::compare::difference_picture;
-use crate::output::page::{self, escape};
+use crate::output::page::{self, escape, short};
 use crate::output::png::{self, Effort, Pixels};
 
 /// What the page adds to the style of every page: plots side by side where there is room, at most as
@@ -53,14 +53,18 @@ fn introduction(study: &Study) -> String {
     let times: Vec<String> =
         study.extent.tenths.iter().map(|t| format!("{}", f64::from(*t) / 10.0)).collect();
     format!(
-        "Each point is one way to move the cloth of this scene: a method and its steps per second. Across: what \
+        "What is compared is the start of the motion alone, at {} s, without stretch limit and self-collision and \
+         with damping per second, whatever the scene says (but for methods that are named after one of these): only this model is approached by every method as its steps \
+         shrink. {}</p>\n\
+         <p>Each point is one way to move the cloth: a method and its steps per second. Across: what \
          it costs. Up: how far its points are from where they should be, as the root of the mean squared \
-         distance. The reference is the model itself (damping per second, no stretch limit, no \
-         self-collision) with so many steps that halving them changes less than the grey floor; errors are \
-         taken at {} s, and told from ten times the floor on; a smaller one counts as that. Times were measured one run after \
+         distance. The reference is the model itself with so many steps that halving them changes less than the \
+         grey floor; an error is \
+         told from ten times the floor on; a smaller one counts as that. Times were measured one run after \
          the other on this machine, each the median of up to {} that were interleaved; springs visited are \
          counted and the same on every machine.{}",
         times.join(", "),
+        cloths(study),
         study.extent.repeats,
         match study.extent.only.is_empty() {
             true => String::new(),
@@ -70,12 +74,30 @@ fn introduction(study: &Study) -> String {
     )
 }
 
+/// Why there are other cloths than that of the scene.
+fn cloths(study: &Study) -> String {
+    let others = study.panels.iter().filter(|panel| panel.panel.part != 1.0);
+    let others: Vec<_> = others.map(|panel| panel.panel.cloth()).collect();
+    if others.is_empty() {
+        return String::new();
+    }
+    format!(
+        "Besides the scene's cloth lighter ones are tried, of {}, to show what changes where the steps of Verlet's \
+         scheme get dear. k/m is the stiffness of a spring over the mass of a point: at 1/1000 of the density it is \
+         1000 times as high.",
+        others.join(" and ")
+    )
+}
+
 /// A panel in words.
 fn heading(panel: &PanelStudy) -> String {
     let panel = &panel.panel;
     format!(
-        "k/m = {:.2e} /s² (density {} kg/m², stable from {:.0} steps/s)",
-        panel.k_over_m, panel.density, panel.stable_rate
+        "k/m = {:.2e} /s² ({}: {} kg/m², stable at worst from {:.0} steps/s)",
+        panel.k_over_m,
+        panel.cloth(),
+        short(panel.density),
+        panel.stable_rate
     )
 }
 

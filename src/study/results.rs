@@ -9,6 +9,7 @@ use super::reference::Difference;
 use super::runs::Measured;
 use super::{Cost, PanelStudy, Study};
 use crate::output::csv::Csv;
+use crate::output::page::short;
 
 /// `results.json`
 #[derive(Serialize)]
@@ -32,6 +33,8 @@ pub struct Results<'a> {
 #[derive(Serialize)]
 struct PanelResults<'a> {
     density: f64,
+    /// Which cloth that is, against the scene's.
+    cloth: String,
     k_over_m: f64,
     stable_rate: f64,
     reference_rates: [u32; 2],
@@ -121,8 +124,11 @@ impl<'a> Results<'a> {
         let mut text = String::new();
         for panel in &self.panels {
             text += &format!(
-                "k/m {:.2e} /s², density {} kg/m², error at {} s, in s of work per simulated s:\n",
-                panel.k_over_m, panel.density, panel.time
+                "k/m {:.2e} /s² ({}: {} kg/m²), error at {} s, in s of work per simulated s:\n",
+                panel.k_over_m,
+                panel.cloth,
+                short(panel.density),
+                panel.time
             );
             text += &lines(&panel.advice, "s", "m");
         }
@@ -158,6 +164,7 @@ impl PanelStudy {
         let named = |hull: Vec<usize>| hull.into_iter().map(|i| self.name(i)).collect();
         PanelResults {
             density: panel.density,
+            cloth: panel.cloth(),
             k_over_m: panel.k_over_m,
             stable_rate: panel.stable_rate,
             reference_rates: reference.rates,

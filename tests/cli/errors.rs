@@ -182,8 +182,9 @@ fn an_unstable_scene_is_5_before_the_first_step_and_when_it_is_let_run() {
     scratch.succeed(&["simulate", "small.json", "--frames", "0", "--set", "cloth.ks=1e12"]);
 }
 
-/// A cloth a little over the bound at rest: what the message asks for is let run, with the warning
-/// that it is only stable at rest; what the worst case needs is let run without.
+/// A cloth a little over the bound at rest: what the message asks for at rest is let run, with the
+/// warning that it is only stable there; what it asks for at worst is let run without. Both hold to
+/// the last digit.
 #[test]
 fn the_advice_before_the_first_step_holds() {
     let scratch = Scratch::new();
@@ -194,15 +195,20 @@ fn the_advice_before_the_first_step_holds() {
     assert_eq!(refused.code, Some(5));
     let number = |text: &str| -> f64 {
         let rest = refused.stderr.split(text).nth(1).expect(text);
-        rest.split([',', ';', '\n']).next().unwrap().trim().parse().unwrap()
+        rest.split([' ', ';']).next().unwrap().parse().unwrap()
     };
-    let (steps, softer) = (number("to at least "), number("lower ks below "));
+    let (steps, softer) = (number("to at least "), number("lower ks to at most "));
+    let softer_worst = number(&format!("{softer} at rest, "));
+    let steps_worst = number(&format!("to at least {steps} at rest, "));
     for (ks, steps, code, warns) in [
         (4e7, steps - 1.0, 5, false),
         (4e7, steps, 0, true),
+        (4e7, steps_worst - 1.0, 0, true),
+        (4e7, steps_worst, 0, false),
         (softer, 30.0, 0, true),
-        (1.002 * softer, 30.0, 5, false),
-        (softer / 3.0, 30.0, 0, false),
+        (more(softer), 30.0, 5, false),
+        (softer_worst, 30.0, 0, false),
+        (more(softer_worst), 30.0, 0, true),
     ] {
         let ran = run([&format!("cloth.ks={ks}"), &format!("sim.steps_per_frame={steps}")]);
         assert_eq!(ran.code, Some(code), "ks {ks}, {steps} steps: {}", ran.stderr);
@@ -213,6 +219,54 @@ fn the_advice_before_the_first_step_holds() {
             ran.stderr
         );
     }
+}
+
+/// One more in the last of the four digits of `ks`.
+fn more(ks: f64) -> f64 {
+    let text = format!("{ks:.3e}");
+    let (digits, exponent) = text.split_once('e').expect("an exponent");
+    let digits: f64 = digits.parse().expect("digits");
+    format!("{:.3}e{exponent}", digits + 0.001).parse().expect("a number")
+}
+
+/// The largest ks that `info` prints is stable, one more in its last digit is not.
+#[test]
+fn info_tells_the_largest_ks_to_the_last_digit() {
+    let scratch = Scratch::new();
+    for set in [
+        "cloth.damping=0",
+        "cloth.damping=3",
+        "cloth.density=7",
+        "sim.steps_per_frame=7",
+        "cloth.enable_shearing=false",
+        "sim.damping=per_second",
+        "cloth.ks=123",
+    ] {
+        let info = |ks: f64| {
+            let ks = format!("cloth.ks={ks}");
+            scratch.json(&[
+                "info",
+                "small.json",
+                "--json",
+                "--set",
+                "cloth.ks=5000",
+                "--set",
+                set,
+                "--set",
+                &ks,
+            ])["cloth"]
+                .take()
+        };
+        let cloth = scratch.json(&["info", "small.json", "--json", "--set", set])["cloth"].take();
+        let [rest, worst] = ["rest", "worst"].map(|at| cloth[format!("largest_ks_{at}")].as_f64().unwrap());
+        let said = String::from_utf8(scratch.succeed(&["info", "small.json", "--set", set])).unwrap();
+        let line = format!("ks          at most {rest} N/m at rest, {worst} at worst, at ");
+        assert!(said.contains(&line), "{line}: {said}");
+        let stable = [worst, more(worst), rest, more(rest)].map(|ks| info(ks)["stable"].take());
+        assert_eq!(stable, ["stable", "stable at rest", "stable at rest", "unstable"], "{set}: {line}");
+    }
+    let slack = scratch.json(&["info", "small.json", "--json", "--set", "cloth.ks=0"]);
+    assert!(slack["cloth"]["largest_ks_rest"].is_null(), "no stiffness, no bound: {slack}");
 }
 
 #[test]
