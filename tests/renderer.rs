@@ -11,22 +11,30 @@ use drape::{
 const BALL: &str = r#"{"sphere": {"origin": [0.5, 0.5, 0.5], "radius": 0.3, "friction": 0},
     "render": {"size": [70, 66]}}"#;
 
-fn renderer() -> (Renderer, Simulation) {
-    let scene = load_text("ball", BALL, &Overrides::default()).expect("a scene").scene;
+/// Of a ball at this height.
+fn renderer(height: f64) -> (Renderer, Simulation) {
+    let overrides =
+        Overrides { sets: vec![format!("sphere.origin=[0.5,{height},0.5]")], ..Overrides::default() };
+    let scene = load_text("ball", BALL, &overrides).expect("a scene").scene;
     let renderer = Renderer::new(&scene, &TextureSource::BuiltIn).expect("a renderer");
     (renderer, Simulation::new(&scene).expect("a simulation"))
 }
 
 #[test]
 fn a_framebuffer_keeps_nothing_of_the_picture_before() {
-    let (renderer, simulation) = renderer();
-    let mut framebuffer: Framebuffer = renderer.framebuffer();
+    let (high, simulation) = renderer(0.5);
+    let mut framebuffer: Framebuffer = high.framebuffer();
     let with_ids = Options { ids: true, ..Options::default() };
-    renderer.draw_into(&mut framebuffer, simulation.positions(), &with_ids);
+    high.draw_into(&mut framebuffer, simulation.positions(), &with_ids);
     assert_eq!(framebuffer.ids().len(), 70 * 66);
     assert!(framebuffer.ids().iter().any(|&id| id >> 24 == 1), "the ball is object 1");
     let first = (framebuffer.rgb(), framebuffer.depth());
-    renderer.draw_into(&mut framebuffer, simulation.positions(), &Options::default());
+    high.draw_into(&mut framebuffer, simulation.positions(), &Options::default());
     assert_eq!(framebuffer.ids(), Vec::<u32>::new(), "no ids were asked for");
     assert_eq!((framebuffer.rgb(), framebuffer.depth()), first);
+    let (low, simulation) = renderer(0.4);
+    low.draw_into(&mut framebuffer, simulation.positions(), &Options::default());
+    let afresh = low.draw(simulation.positions(), &Options::default());
+    assert_ne!(afresh.rgb, first.0);
+    assert_eq!((framebuffer.rgb(), framebuffer.depth()), (afresh.rgb, afresh.depth));
 }
