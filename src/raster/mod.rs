@@ -68,17 +68,18 @@ type FragmentStage<'a> = Box<dyn Fn(&ShadeInput<'_>, &mut FragmentList) + Send +
 ///     let [x, y, z] = a.in_position;
 ///     ([x, y, z, 1.0], [x])
 /// };
+/// let [four, half, one] = [4.0, 0.5, 1.0].map(Wide::<f32>::splat);
 /// let fragment_program = |&[x]: &[Wide<f32>; 1]| {
-///     let stripes = x * Lane::splat(4.0);
-///     let part = stripes - stripes.floor();
-///     vec3(part, Lane::splat(0.5), Lane::splat(1.0) - part)
+///     let part = x * four - (x * four).floor();
+///     vec3(part, half, one - part)
 /// };
 /// let triangle = Primitives::Triangles(&[[0, 1, 2]]);
 /// let call = DrawCall::new::<Wide<f32>, 1>(triangle, 3, attributes, vertex_program, fragment_program);
 /// let mut framebuffer = Framebuffer::new(64, 64, 1);
 /// let (stats, _) = draw(&mut framebuffer, [0.0; 3], &[call], false);
 /// assert_eq!(stats.covered, 64 * 64 / 2);
-/// assert_eq!(framebuffer.rgb()[3 * (63 * 64 + 32)..][..3], [8, 128, 247], "the first stripe's start");
+/// // Right of the middle x = 1 / 64, which is 1 / 16 of a stripe.
+/// assert_eq!(framebuffer.rgb()[3 * (63 * 64 + 32)..][..3], [16, 128, 239]);
 /// ```
 ///
 /// Eight fragments are shaded side by side; `L` = `f32` shades one at a time, with the same bits.
