@@ -61,7 +61,7 @@ struct Bound {
     dt_omega_limit_worst: f64,
     fewest_steps_rest: f64,
     fewest_steps_worst: f64,
-    /// The most ks at this step, N/m; infinite, and left out, for springs without stiffness.
+    /// The most ks at this step, N/m; nothing for springs without stiffness, which have none.
     largest_ks_rest: Option<f64>,
     largest_ks_worst: Option<f64>,
     #[serde(skip)]

@@ -101,7 +101,7 @@ pub fn converge(
         }
         (now, times, floor) = (next, 2 * times, closer);
     }
-    watch(panel.finest / 10 * extent.last() * RUNGS.saturating_sub(made))?;
+    watch((panel.finest / 10 * extent.last()).saturating_mul(RUNGS.saturating_sub(made)))?;
     if now.moments.len() < extent.tenths.len() {
         return Err(Error::new(Kind::Unstable, "the reference is lost even with the smallest step")
             .with_help("study a scene that is stable: see `drape info`"));
