@@ -35,7 +35,8 @@
 //! | step | module |
 //! |---|---|
 //! | scene file → validated scene → plan of what it needs | [`scene`] |
-//! | grid, springs, forces, collisions, stretch limit | [`cloth`] |
+//! | grid, springs, forces, stretch limit | [`cloth`] |
+//! | collisions with objects, and of the cloth with itself | `collision` |
 //! | one step, one frame | [`simulation`] |
 //! | pictures that materials read | [`texture`], [`cubemap`], [`texture_source`] |
 //! | one number or eight side by side | [`lanes`] |
@@ -60,6 +61,7 @@ pub mod math;
 pub mod scene;
 mod dispatch;
 pub mod cloth;
+mod collision;
 pub mod simulation;
 pub mod texture;
 pub mod cubemap;

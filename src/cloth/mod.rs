@@ -19,7 +19,7 @@
 //! - angular momentum, once the stretch limit acts (it moves the point at which a velocity acts);
 //! - energy that only falls, once objects or self-collision act;
 //! - strain of at most 10 % after the stretch limit (one pass leaves 13 % on the stock scenes);
-//! - a distance of 2 · thickness between points (pairs across a box border are never seen);
+//! - a distance of 2 · thickness between points (pairs across a cell border are never seen);
 //! - no point inside a sphere or below a plane (friction moves along a chord, and the stretch
 //!   limit comes after the objects);
 //! - mirror symmetry and independence of the springs' order, once the stretch limit acts;
@@ -43,10 +43,7 @@ use grid::Pins;
 use springs::Springs;
 
 pub(crate) mod bdf2;
-mod boxes;
-pub(crate) mod collide;
 mod conjugate_gradients;
-pub(crate) mod contact;
 pub mod energy;
 pub(crate) mod forces;
 mod gather;
@@ -55,15 +52,11 @@ pub(crate) mod guard;
 pub(crate) mod implicit_euler;
 pub mod ledger;
 pub mod measure;
-pub(crate) mod neighbors;
 mod newton;
-mod one_box;
 pub(crate) mod pieces;
 mod real;
 pub mod rest;
-pub(crate) mod self_collision;
 pub(crate) mod single;
-mod sorted;
 pub mod springs;
 pub mod stability;
 mod stiffness;
@@ -217,9 +210,9 @@ pub struct Counters {
     pub unsolved_steps: u64,
     /// Points that the integrator moved on.
     pub points_advanced: u64,
-    /// Boxes of two or more points that self-collision looked into.
+    /// Cells of two or more points that self-collision searched.
     pub boxes_searched: u64,
-    /// Pairs of points that shared a box, once a step.
+    /// Pairs of points that shared a cell, or lay in neighbouring ones, once a step.
     pub pairs_tested: u64,
     /// Points that self-collision moved.
     pub self_collision_moves: u64,

@@ -9,7 +9,8 @@ impl State {
     /// Takes the state as the start that the energy is held against.
     pub(super) fn set_budget(&mut self) {
         let energy = Energy::new(&self.x, &self.last, &self.springs, &self.constants);
-        self.budget = self.allowance.budget(&self.x, energy, &self.constants);
+        let depths = self.colliders.depths();
+        self.budget = self.allowance.budget(&self.x, energy, &self.constants, depths);
     }
 
     /// Notes the state before a frame, for the search after a failure.

@@ -2,19 +2,17 @@
 
 use super::scheme::Scheme;
 use super::stopwatch::Stopwatch;
-use crate::cloth::collide::Objects;
-use crate::cloth::contact::Outside;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
 use crate::cloth::guard::{Allowance, Budget};
 use crate::cloth::ledger::{Ledger, Recorder};
-use crate::cloth::neighbors::Neighbors;
-use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Constants, Counters, Points};
+use crate::collision::self_collision::SelfCollision;
+use crate::collision::{ColliderKind, Colliders};
 use crate::error::{Error, Kind, Result};
-use crate::scene::{Plan, Scene, SelfCollision as Mode, Start};
+use crate::scene::{Plan, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]
@@ -27,10 +25,8 @@ pub(super) struct State {
     pub(super) last: Points,
     pub(super) scheme: Scheme,
     pub(super) self_collision: Option<SelfCollision>,
-    neighbors: Option<Neighbors>,
-    pub(super) objects: Option<Objects>,
+    pub(super) colliders: Colliders,
     stretch_limit: Option<StretchLimit>,
-    outside: Option<Outside>,
     pub(super) recorder: Option<Recorder>,
     pub(super) allowance: Allowance,
     pub(super) budget: Budget,
@@ -53,24 +49,21 @@ impl State {
         last.copy_from(&x);
         let springs = Springs::new(cloth, grid, &x)?;
         let constants = Constants::new(cloth, sim);
-        let same_box = plan.self_collision == Mode::SameBox;
-        let neighbors = plan.self_collision == Mode::Neighbors;
         let limit = |limit| StretchLimit::new(limit, sim.stretch_passes, &springs);
         let scheme = Scheme::new(cloth, sim, &springs)?;
+        let colliders = Colliders::new(scene, &x)?;
         let mut state = Self {
             constants,
             grid,
             pins: Pins::new(cloth, grid)?,
             last,
-            self_collision: when(same_box, || SelfCollision::new(cloth, sim, grid, &x))?,
-            neighbors: when(neighbors, || Neighbors::new(cloth, sim, &x))?,
-            objects: (plan.planes || plan.spheres).then(|| Objects::new(scene)),
-            outside: when(plan.kept_outside, || Outside::new(scene, &x))?,
+            self_collision: SelfCollision::new(plan.self_collision, cloth, sim, grid, &x)?,
             stretch_limit: plan.stretch_limit.map(limit).transpose()?,
             recorder: None,
             budget: Budget::default(),
             frame_start: vec![Points::zeros(grid.len())?; 2 + scheme.memory().len()],
-            allowance: Allowance::new(scene, cloth, &springs, &constants),
+            allowance: Allowance::new(scene, cloth, &springs, &constants, colliders.lift()),
+            colliders,
             scheme,
             springs,
             x,
@@ -115,25 +108,20 @@ impl State {
             }
         };
 
-        // 3. Self-collision: close points of one box move apart.
+        // 3. Self-collision: close points move apart.
         if let Some(self_collision) = &mut self.self_collision {
             self_collision.apply(x, pins, counters);
             stopwatch.lap(|timings| &mut timings.self_collision);
             book(x, last, |ledger| &mut ledger.self_collision);
         }
-        if let Some(neighbors) = &mut self.neighbors {
-            neighbors.apply(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.self_collision);
-            book(x, last, |ledger| &mut ledger.self_collision);
-        }
 
         // 4. Objects: points that went through a plane or into a sphere are put back.
-        if let Some(objects) = &self.objects {
-            objects.collide_planes(x, last, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            objects.collide_spheres(x, last, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
+        if !self.colliders.is_empty() {
+            for kind in ColliderKind::ALL {
+                self.colliders.resolve(kind, x, last, pins, counters);
+                stopwatch.lap(|timings| &mut timings.objects);
+                book(x, last, entry(kind));
+            }
         }
 
         // 5. Stretch limit: springs that are too long are shortened.
@@ -144,19 +132,22 @@ impl State {
         }
 
         // Where the scene asks for it: points that the phases left inside an object leave it.
-        if let Some(outside) = &self.outside {
-            outside.leave_planes(x, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            outside.leave_spheres(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
+        if self.colliders.keep_outside() {
+            for kind in ColliderKind::ALL {
+                self.colliders.depenetrate(kind, x, pins, counters);
+                stopwatch.lap(|timings| &mut timings.objects);
+                book(x, last, entry(kind));
+            }
         }
     }
 }
 
-/// What `make` makes, when the plan asks for it.
-fn when<T>(asked_for: bool, make: impl FnOnce() -> Result<T>) -> Result<Option<T>> {
-    asked_for.then(make).transpose()
+/// The ledger's entry for objects of one kind.
+fn entry(kind: ColliderKind) -> fn(&mut Ledger) -> &mut f64 {
+    match kind {
+        ColliderKind::Plane => |ledger| &mut ledger.planes,
+        ColliderKind::Sphere => |ledger| &mut ledger.spheres,
+    }
 }
 
 /// Checks that `x` has `points` positions.
