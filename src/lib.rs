@@ -46,10 +46,6 @@
 //! | vertex stage → clip → set-up, bins → tiles → fragment stage | [`raster`] |
 //! | scene and positions → picture | [`render`] |
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
-//! | outcome over stiffness, density and step | [`stability_map`] |
-//! | speed against accuracy, measured | [`study`] |
-//! | the figures of the report and their page | [`gallery`] |
-//! | the commands | [`cli`] |
 //!
 //! # Determinism
 //! Whatever reaches a result is made of + − × ÷ and square roots, which IEEE 754 rounds exactly,
@@ -73,7 +69,3 @@ pub mod shader;
 pub mod raster;
 pub mod render;
 pub mod output;
-pub mod stability_map;
-pub mod study;
-pub mod gallery;
-pub mod cli;

@@ -9,7 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::texture::Texture;
 
 /// Endings that are tried in a folder, in this order.
-pub(crate) const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
+pub const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
 
 /// Largest texture file, bytes.
 const MAX_FILE_BYTES: u64 = 1 << 29;
@@ -92,12 +92,12 @@ fn unknown(what: &str, name: &str, known: &str) -> Error {
 }
 
 /// Whether a texture of this name is built in.
-pub(crate) fn is_built_in_texture(name: &str) -> bool {
+pub fn is_built_in_texture(name: &str) -> bool {
     TEXTURES.iter().any(|(known, _)| *known == name)
 }
 
 /// Whether a cube map of this name is built in.
-pub(crate) fn is_built_in_cubemap(name: &str) -> bool {
+pub fn is_built_in_cubemap(name: &str) -> bool {
     name == BUILT_IN_CUBE
 }
 

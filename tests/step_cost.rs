@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "support/scenes/mod.rs"]
 mod scenes;
 
 use drape::cloth::{Counters, Points};

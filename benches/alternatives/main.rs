@@ -12,13 +12,14 @@
 
 mod drawing;
 #[allow(dead_code, reason = "the test that it belongs to needs more of it")]
-#[path = "../../tests/gl/mod.rs"]
+#[path = "../../tests/engine/gl/harness/mod.rs"]
 mod gl;
-#[path = "../../tests/naive/mod.rs"]
+#[path = "../../tests/support/naive/mod.rs"]
 mod naive;
+#[path = "../../tests/support/repository.rs"]
+mod repository;
 mod stepping;
 
-use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -49,7 +50,7 @@ fn tables(threads: &str, rounds: usize) {
 
 /// A stock scene with changes.
 fn scene(name: &str, sets: &[&str]) -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(format!("{name}.json"));
+    let path = repository::path(&format!("scenes/{name}.json"));
     let sets = sets.iter().map(|set| (*set).to_owned()).collect();
     load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene
 }

@@ -201,7 +201,7 @@ fn read_png(scratch: &Scratch, name: &str) -> Rgb {
 fn other_texels_under_the_same_name_are_another_scene() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("set")).unwrap();
-    let textures = Path::new(env!("CARGO_MANIFEST_DIR")).join("textures");
+    let textures = crate::repository::path("textures");
     let arguments = ["animate", "small.json", "%d.png", "--frames", "0..2", "--size", "40x30"];
     let arguments = [&arguments[..], &["--shader", "texture", "--textures", "set", "--json"]].concat();
     let mut kept = Vec::new();

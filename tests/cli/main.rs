@@ -1,13 +1,29 @@
-//! The command line keeps its contract: exit codes, clean standard output, errors that programs
-//! can read, and no file left behind by a failure.
+//! What the program `drape` promises; `tests/README.md` has a line for each file.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    reason = "a test may panic, and numbers are small"
+)]
 
 mod animate;
+mod browser;
 mod disk;
+mod docs;
 mod errors;
+mod extremes;
+mod faults;
 mod files;
-#[path = "../naive/mod.rs"]
+mod gallery;
+mod golden;
+mod goldens;
+#[path = "../support/naive/mod.rs"]
 mod naive;
+mod pages;
 mod positions;
+mod readme;
+#[path = "../support/repository.rs"]
+mod repository;
 mod results;
 mod scratch;
 mod signals;

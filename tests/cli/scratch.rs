@@ -1,7 +1,7 @@
 //! An empty folder in which the real program is run.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -102,6 +102,6 @@ impl Run {
 
 /// The folder of the stock scenes.
 pub(crate) fn scene(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+    let path = crate::repository::path("scenes").join(name);
     path.to_str().expect("a path in UTF-8").to_owned()
 }

@@ -1,0 +1,5 @@
+//! Options that several commands share.
+
+pub(crate) mod frames;
+pub(crate) mod render;
+pub(crate) mod scene;

@@ -1,0 +1,163 @@
+//! `drape check`: everything that is wrong in scene files, and what would fail later; nothing run.
+
+use std::collections::BTreeSet;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::args::scene::Changes;
+use crate::run::advance::certain;
+use crate::session::Session;
+use crate::session::ui::paint;
+use drape::cloth::stability::Stability;
+use drape::error::{Diagnostic, Error, Kind, Result};
+use drape::scene::{self, Integrator, Material, Plan, Scene};
+use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
+
+/// What `check` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The scene files (JSON)
+    #[arg(value_name = "SCENE", required = true)]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    changes: Changes,
+    /// Look for textures in this folder instead of the built-in set
+    #[arg(long, value_name = "DIR")]
+    textures: Option<PathBuf>,
+}
+
+/// What was found in all files.
+#[derive(Serialize)]
+struct Report {
+    files: Vec<Findings>,
+}
+
+/// What was found in one file.
+#[derive(Serialize)]
+struct Findings {
+    file: String,
+    errors: Vec<Diagnostic>,
+    warnings: Vec<Diagnostic>,
+    /// Why the file could not be checked, if so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<String>,
+    #[serde(skip)]
+    kind: Option<Kind>,
+}
+
+/// Prints what was found; the worst of it decides the exit code.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
+    let mut files = Vec::new();
+    for path in &args.paths {
+        session.signals.check()?;
+        files.push(check(path, &args.changes, &textures));
+    }
+    let colored = session.ui.color.applies(std::io::stdout().is_terminal());
+    let text = files.iter().map(|file| file.text(colored)).collect::<String>();
+    let count = files.iter().filter(|file| file.kind.is_some()).count();
+    let worst = files.iter().filter_map(|file| file.kind).reduce(worse);
+    let total = files.len();
+    session.print(&Report { files }, &text)?;
+    match worst {
+        None => Ok(()),
+        Some(kind) => Err(Error::new(kind, format!("{count} of {total} scenes are not valid"))),
+    }
+}
+
+/// A wrong scene counts before a file that cannot be read.
+fn worse(a: Kind, b: Kind) -> Kind {
+    if a == Kind::Scene { a } else { b }
+}
+
+fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
+    let mut findings = Findings {
+        file: path.display().to_string(),
+        errors: Vec::new(),
+        warnings: Vec::new(),
+        failure: None,
+        kind: None,
+    };
+    match scene::load(path, &changes.overrides()) {
+        Ok(loaded) => {
+            findings.warnings = loaded.warnings;
+            findings.warnings.extend(foreseen(&findings.file, &loaded.scene, textures));
+        }
+        Err(error) => {
+            findings.kind = Some(error.kind);
+            findings.failure = error.diagnostics.is_empty().then(|| error.to_string());
+            findings.errors = error.diagnostics;
+        }
+    }
+    findings
+}
+
+/// What would stop a later command, though the scene itself is valid: textures that cannot be read,
+/// a cloth that cannot be moved.
+fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
+    let [images, cubes] = names(scene);
+    let images = images.iter().filter_map(|name| textures.texture(name).err());
+    let cubes = cubes.iter().filter_map(|name| textures.cubemap(name).err());
+    let mut warnings: Vec<_> =
+        images.chain(cubes).map(|error| warning(file, "check::texture", &error)).collect();
+    warnings.extend(instability(scene).map(|error| warning(file, "check::unstable", &error)));
+    warnings
+}
+
+/// The textures and the cube maps to look for: those that the scene's shaders read, and those whose
+/// name is not built in, which were named to be read by another shader.
+fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
+    let plan = Plan::of(scene);
+    let [mut images, mut cubes] = [plan.textures, plan.environments].map(BTreeSet::from_iter);
+    let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
+    let planes = scene.planes.iter().map(|plane| &plane.material);
+    let spheres = scene.spheres.iter().map(|sphere| &sphere.material);
+    for Material { texture, height_map, environment, .. } in cloth.chain(planes).chain(spheres) {
+        images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
+        cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());
+    }
+    [images, cubes]
+}
+
+/// Why the first step would be refused, if it would.
+fn instability(scene: &Scene) -> Option<Error> {
+    // No other integrator has a largest step.
+    let cloth = scene.cloth.as_ref().filter(|_| scene.sim.integrator == Integrator::Verlet)?;
+    match Stability::new(cloth, &scene.sim) {
+        Ok(stability) => {
+            let unstable = stability.is_unstable_at_rest();
+            unstable.then(|| certain(&stability, cloth.ks, scene.sim.steps_per_frame))
+        }
+        Err(error) => Some(error),
+    }
+}
+
+/// A failure to come, at no place of the file.
+fn warning(file: &str, code: &'static str, error: &Error) -> Diagnostic {
+    let Error { message, help, .. } = error;
+    let mut rendered = format!("warning[{code}]: {message}\n --> {file}");
+    if !help.is_empty() {
+        rendered += &format!("\n  = help: {help}");
+    }
+    let (message, help, file) = (message.clone(), help.clone(), file.to_owned());
+    Diagnostic { code, message, file, line: 0, column: 0, key: String::new(), help, rendered }
+}
+
+impl Findings {
+    fn text(&self, colored: bool) -> String {
+        let mut blocks: Vec<String> =
+            self.errors.iter().chain(&self.warnings).map(|found| paint(&found.rendered, colored)).collect();
+        blocks.extend(self.failure.as_ref().map(|failure| paint(&format!("error: {failure}"), colored)));
+        if self.kind.is_none() {
+            let warned = match self.warnings.len() {
+                0 => String::new(),
+                1 => ", with a warning".to_owned(),
+                several => format!(", with {several} warnings"),
+            };
+            blocks.push(format!("{}: valid{warned}", self.file));
+        }
+        blocks.join("\n\n") + "\n"
+    }
+}

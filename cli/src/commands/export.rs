@@ -1,0 +1,64 @@
+//! `drape export`: the simulated cloth as a mesh.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::args::scene::{Moment, SceneArgs};
+use crate::run::advance::{advance_until, start};
+use crate::session::Session;
+use crate::session::atomic::{self, Content};
+use crate::session::outputs;
+use drape::error::{Error, Kind, Result};
+use drape::mesh::Mesh;
+use drape::output::obj;
+use drape::scene::Needs;
+
+/// What `export` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The mesh file to write (`-` = standard output)
+    #[arg(value_name = "OUT.obj")]
+    mesh: PathBuf,
+    #[command(flatten)]
+    moment: Moment,
+}
+
+/// What was exported.
+#[derive(Serialize)]
+struct Summary {
+    mesh: String,
+    frame: u64,
+    time: f64,
+    points: usize,
+    triangles: usize,
+}
+
+/// Simulates and writes the mesh.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let until = args.moment.until(&scene);
+    outputs::check_ending(&args.mesh, "obj")?;
+    outputs::check(&args.scene.inputs(), [(args.mesh.as_path(), Content::Text)])?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
+    };
+    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
+    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let points = simulation.positions();
+    let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
+    // The simulation's own numbers, which the drawn mesh rounds.
+    let positions: Vec<[f64; 3]> = (0..points.len()).map(|i| points.get(i).into()).collect();
+    let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;
+    atomic::write(&args.mesh, text.as_bytes())?;
+    let (frame, time) = (simulation.frame(), simulation.time());
+    let (points, triangles) = (positions.len(), mesh.triangles.len());
+    let mesh = args.mesh.display().to_string();
+    session.ui.note(&format!("{mesh}: {points} points, {triangles} triangles, frame {frame}, {time} s"));
+    if session.ui.json {
+        session.print_json(&Summary { mesh, frame, time, points, triangles })?;
+    }
+    moved.result()
+}

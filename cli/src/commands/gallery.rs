@@ -1,0 +1,208 @@
+//! `drape gallery`: every figure of the report, and a page of them.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+use serde::Serialize;
+
+use crate::args::render::size;
+use crate::arguments::{Arguments, Command};
+use crate::session::Session;
+use crate::session::atomic::{self, Content};
+use crate::session::outputs;
+use crate::session::progress::Tally;
+use drape::error::{Error, Kind, Result};
+use drape_lab::gallery::page::{self, Entry};
+use drape_lab::gallery::shot::{self, Shot, Shown, State};
+use drape_lab::gallery::table::{Part, Picture, parts};
+
+/// The name of the page.
+const INDEX: &str = "index.html";
+
+/// What `gallery` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Folder for the pictures and index.html
+    #[arg(value_name = "OUT", default_value = "gallery")]
+    out: PathBuf,
+    /// Make this figure, or if none is called so all whose names begin so, such as `part5`, repeatable (default: all
+    /// 51, in 56 pictures, since five have another beside them); the page then shows no other
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Width and height of the pictures in pixels (default: the report's 1024x800)
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Write the pictures alone: no page and no energy ledger, which takes three quarters of the time
+    #[arg(long)]
+    pictures: bool,
+}
+
+/// What was made.
+#[derive(Serialize)]
+struct Summary<'a> {
+    folder: String,
+    pictures: Vec<Made<'a>>,
+}
+
+/// One picture that was made.
+#[derive(Serialize)]
+struct Made<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    state: State,
+}
+
+/// Makes the pictures, then writes them and the page.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let parts = args.parts()?;
+    let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
+    let shots = pictures.iter().map(|picture| args.shot(picture)).collect::<Result<Vec<Shot>>>()?;
+    let files: Vec<PathBuf> =
+        pictures.iter().map(|picture| args.out.join(format!("{}.png", picture.name))).collect();
+    let index = args.out.join(INDEX);
+    outputs::make_folder(&args.out)?;
+    let page = (!args.pictures).then_some((index.as_path(), Content::Text));
+    outputs::check(&[], files.iter().map(|file| (file.as_path(), Content::Binary)).chain(page))?;
+
+    let shown = take(&shots, !args.pictures, session)?;
+    for (file, shown) in files.iter().zip(&shown) {
+        atomic::write(file, &shown.png)?;
+    }
+    if !args.pictures {
+        atomic::write(&index, text(&parts, &shots, &shown).as_bytes())?;
+    }
+    let figures = parts.iter().map(|part| part.figures.len()).sum();
+    args.finish(figures, &pictures, &shown, session)
+}
+
+impl Args {
+    /// The figures that are asked for.
+    fn parts(&self) -> Result<Vec<Part>> {
+        let mut parts = parts()?;
+        let names: Vec<String> =
+            parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
+        let is_asked = |figure: &str, text: &String| {
+            figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
+        };
+        if let Some(text) = self.only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
+            let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
+            return Err(error.with_help(format!("the figures are {}", names.join(", "))));
+        }
+        if !self.only.is_empty() {
+            for part in &mut parts {
+                part.figures.retain(|figure| self.only.iter().any(|text| is_asked(figure.name(), text)));
+            }
+        }
+        Ok(parts)
+    }
+
+    fn shot(&self, picture: &Picture) -> Result<Shot> {
+        let mut shot = read(picture)?;
+        shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
+        Ok(shot)
+    }
+
+    fn finish(
+        &self,
+        figures: usize,
+        pictures: &[&Picture],
+        shown: &[Shown],
+        session: &Session,
+    ) -> Result<()> {
+        let folder = self.out.display().to_string();
+        let made = if self.pictures { self.out.clone() } else { self.out.join(INDEX) };
+        session.ui.note(&format!("{}: figures {figures}, pictures {}", made.display(), shown.len()));
+        if !session.ui.json {
+            return Ok(());
+        }
+        let pictures = pictures.iter().zip(shown);
+        let pictures =
+            pictures.map(|(picture, shown)| Made { name: &picture.name, state: shown.state }).collect();
+        session.print_json(&Summary { folder, pictures })
+    }
+}
+
+/// What the command line makes of a picture's command, a `drape render` of built-in files.
+fn read(picture: &Picture) -> Result<Shot> {
+    let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
+    let arguments =
+        Arguments::try_parse_from(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
+    let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
+    let mut scene = render.scene.load_stock()?;
+    render.look.apply(&mut scene);
+    let until = render.moment.until(&scene);
+    if until.rest {
+        return Err(wrong("its moment is known only at the end".to_owned()));
+    }
+    let allow_unstable = render.moment.leniency.allow_unstable;
+    Ok(Shot { scene, options: render.look.options(false), frame: until.frames, allow_unstable })
+}
+
+/// Takes the pictures and tells how far it is.
+fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
+    let progress = Tally::new(&session.ui, "frames simulated", shot::frames(shots));
+    let each_frame = || {
+        progress.add(1);
+        session.signals.check()
+    };
+    let shown = shot::take(shots, ledger, &each_frame)?;
+    session.signals.check()?;
+    Ok(shown)
+}
+
+/// The page of all that was made.
+fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
+    let mut made = shots.iter().zip(shown);
+    let mut entry = |figure| Entry::new(figure, &mut made);
+    let parts: Vec<_> =
+        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
+    page::page(&parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drape::cloth::stability::Stability;
+
+    fn pictures() -> Vec<Picture> {
+        let parts = parts().unwrap();
+        parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
+    }
+
+    #[test]
+    fn figures_are_picked_by_their_name_or_its_beginning() {
+        let picked = |only: &[&str]| {
+            let only = only.iter().map(|&name| name.to_owned()).collect();
+            let args = Args { out: PathBuf::new(), only, size: None, pictures: false };
+            let parts = args.parts().map_err(|e| e.kind)?;
+            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
+        };
+        let part5 = picked(&["part5"]).unwrap();
+        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
+        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
+        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
+        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
+        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
+        assert_eq!(picked(&[]).unwrap().len(), 51);
+        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
+    }
+
+    /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.
+    #[test]
+    fn the_commands_of_unstable_cloths_alone_allow_it() {
+        for picture in pictures() {
+            let shot = read(&picture).unwrap();
+            let unstable = shot.scene.cloth.as_ref().is_some_and(|cloth| {
+                shot.frame > 0 && Stability::new(cloth, &shot.scene.sim).unwrap().is_unstable_at_rest()
+            });
+            assert_eq!(shot.allow_unstable, unstable, "{}", picture.name);
+        }
+    }
+
+    #[test]
+    fn every_picture_has_the_size_of_the_report() {
+        for picture in pictures() {
+            assert_eq!(read(&picture).unwrap().scene.render.size, [1024, 800], "{}", picture.name);
+        }
+    }
+}

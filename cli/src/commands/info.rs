@@ -1,0 +1,232 @@
+//! `drape info`: what a scene needs and what is therefore left out.
+
+use serde::Serialize;
+
+use crate::args::scene::{SceneArgs, frame_at};
+use crate::run::advance::largest_ks;
+use crate::run::counts;
+use crate::session::Session;
+use drape::cloth::Constants;
+use drape::cloth::stability::Stability;
+use drape::error::Result;
+use drape::scene::{Cloth, Integrator, Item, Plan, Scene};
+
+/// What `info` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+}
+
+/// What is known of a scene without running it.
+#[derive(Serialize)]
+struct Info {
+    size: [u32; 2],
+    samples: u32,
+    fps: f64,
+    steps_per_frame: u32,
+    time: f64,
+    frames: u64,
+    cloth: Option<ClothInfo>,
+    planes: usize,
+    spheres: usize,
+    memory: Memory,
+    needs: Vec<Item>,
+}
+
+/// The size of the cloth and how its springs stand the step.
+#[derive(Serialize)]
+struct ClothInfo {
+    points: [usize; 2],
+    structural: usize,
+    shearing: usize,
+    bending: usize,
+    pinned: usize,
+    /// Mass of a point, kg.
+    mass: f64,
+    dt: f64,
+    integrator: &'static str,
+    /// How the springs stand the step; nothing for an integrator without a largest step.
+    #[serde(flatten)]
+    bound: Option<Bound>,
+    stable: &'static str,
+}
+
+/// The step of an explicit integrator against the fastest vibrations of the springs.
+#[derive(Serialize)]
+struct Bound {
+    dt_omega_rest: f64,
+    dt_omega_worst: f64,
+    dt_omega_limit: f64,
+    /// The same at worst, where a cloth without damping has a lower one.
+    dt_omega_limit_worst: f64,
+    fewest_steps_rest: f64,
+    fewest_steps_worst: f64,
+    /// The most ks at this step, N/m; nothing for springs without stiffness, which have none.
+    largest_ks_rest: Option<f64>,
+    largest_ks_worst: Option<f64>,
+    #[serde(skip)]
+    steps_per_frame: u32,
+}
+
+/// The largest arrays, in bytes; a lower bound of what a run takes.
+#[derive(Serialize)]
+struct Memory {
+    cloth: u64,
+    picture: u64,
+}
+
+/// Prints what the scene needs.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let info = Info::of(&scene)?;
+    session.print(&info, &info.text())
+}
+
+impl Info {
+    fn of(scene: &Scene) -> Result<Self> {
+        Ok(Self {
+            size: scene.render.size,
+            samples: scene.render.samples,
+            fps: scene.sim.fps,
+            steps_per_frame: scene.sim.steps_per_frame,
+            time: scene.render.time,
+            frames: frame_at(None, scene),
+            cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
+            planes: scene.planes.len(),
+            spheres: scene.spheres.len(),
+            memory: Memory::of(scene),
+            needs: Plan::of(scene).items,
+        })
+    }
+
+    fn text(&self) -> String {
+        let [width, height] = self.size;
+        let needs: String = self.needs.iter().map(need).collect();
+        format!(
+            "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
+             objects     planes {}, spheres {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+            self.samples,
+            self.time,
+            self.frames,
+            self.fps,
+            self.steps_per_frame,
+            self.cloth.as_ref().map_or_else(|| "cloth       none\n".to_owned(), ClothInfo::text),
+            self.planes,
+            self.spheres,
+            self.memory.cloth,
+            self.memory.picture,
+        )
+    }
+}
+
+impl ClothInfo {
+    fn of(cloth: &Cloth, scene: &Scene) -> Result<Self> {
+        let [structural, shearing, bending] = counts::springs(cloth);
+        let explicit = scene.sim.integrator == Integrator::Verlet;
+        let stability = explicit.then(|| Stability::new(cloth, &scene.sim)).transpose()?;
+        let Constants { mass, dt, .. } = Constants::new(cloth, &scene.sim);
+        Ok(Self {
+            points: [cloth.num_width_points, cloth.num_height_points],
+            structural,
+            shearing,
+            bending,
+            pinned: cloth.pinned.len(),
+            mass,
+            dt,
+            integrator: scene.sim.integrator.name(),
+            bound: stability
+                .as_ref()
+                .map(|stability| Bound::of(stability, cloth.ks, scene.sim.steps_per_frame)),
+            stable: stability.as_ref().map_or("no step bound", verdict),
+        })
+    }
+
+    fn text(&self) -> String {
+        let [w, h] = self.points;
+        let Self { structural, shearing, bending, pinned, mass, dt, integrator, stable, .. } = self;
+        let step = match &self.bound {
+            Some(bound) => bound.text(stable),
+            None => ", no bound; the energy is watched while it runs\n".into(),
+        };
+        format!(
+            "cloth       {w} x {h} = {} points, pinned {pinned}, {mass} kg each\n\
+             springs     {} = structural {structural}, shearing {shearing}, bending {bending}\n\
+             integrator  {integrator}\n\
+             step        {dt} s{step}",
+            w * h,
+            structural + shearing + bending,
+        )
+    }
+}
+
+impl Bound {
+    fn of(stability: &Stability, ks: f64, steps_per_frame: u32) -> Self {
+        let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
+        let [largest_ks_rest, largest_ks_worst] =
+            largest_ks(stability, ks).map(|ks| Some(ks).filter(|ks| ks.is_finite()));
+        Self {
+            dt_omega_rest: dt * omega_rest,
+            dt_omega_worst: dt * omega_safe,
+            dt_omega_limit: limit,
+            dt_omega_limit_worst: limit_worst,
+            fewest_steps_rest: stability.fewest_steps_rest(),
+            fewest_steps_worst: stability.fewest_steps_worst(),
+            largest_ks_rest,
+            largest_ks_worst,
+            steps_per_frame,
+        }
+    }
+
+    fn text(&self, stable: &str) -> String {
+        let steps = self.steps_per_frame;
+        let ks = self.largest_ks_rest.zip(self.largest_ks_worst).map_or_else(String::new, |(rest, worst)| {
+            format!("ks          at most {rest} N/m at rest, {worst} at worst, at {steps} steps per frame\n")
+        });
+        let undamped = if self.dt_omega_limit_worst < self.dt_omega_limit {
+            format!(" at rest and {:.4} at worst", self.dt_omega_limit_worst)
+        } else {
+            String::new()
+        };
+        format!(
+            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}{undamped}: {stable}\n\
+             steps       at least {} per frame at rest, {} at worst\n{ks}",
+            self.dt_omega_rest,
+            self.dt_omega_worst,
+            self.dt_omega_limit,
+            self.fewest_steps_rest,
+            self.fewest_steps_worst,
+        )
+    }
+}
+
+fn verdict(stability: &Stability) -> &'static str {
+    if stability.is_always_stable() {
+        "stable"
+    } else if stability.is_unstable_at_rest() {
+        "unstable"
+    } else {
+        "stable at rest"
+    }
+}
+
+impl Memory {
+    fn of(scene: &Scene) -> Self {
+        // Three numbers each of the position, the last position and the force.
+        const POINT: usize = 3 * 3 * size_of::<f64>();
+        // Colour and depth of a sample.
+        const SAMPLE: usize = 4 * size_of::<f32>();
+        let cloth = scene.cloth.as_ref().map_or(0, |cloth| {
+            let springs: usize = counts::springs(cloth).iter().sum();
+            cloth.num_width_points * cloth.num_height_points * POINT + springs * size_of::<f64>()
+        });
+        let [width, height] = scene.render.size.map(u64::from);
+        let picture = width * height * u64::from(scene.render.samples) * SAMPLE as u64;
+        Self { cloth: cloth as u64, picture }
+    }
+}
+
+fn need(item: &Item) -> String {
+    let verdict = if item.needed { "needed  " } else { "left out" };
+    format!("{verdict}  {}: {}\n", item.name, item.reason)
+}

@@ -1,0 +1,14 @@
+//! The commands, one file each.
+
+pub(crate) mod animate;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod compare_positions;
+pub(crate) mod export;
+pub(crate) mod gallery;
+pub(crate) mod info;
+pub(crate) mod meta;
+pub(crate) mod render;
+pub(crate) mod simulate;
+pub(crate) mod stability;
+pub(crate) mod study;

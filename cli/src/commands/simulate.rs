@@ -1,0 +1,219 @@
+//! `drape simulate`: runs a scene without drawing it.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::args::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
+use crate::run::advance::{Until, advance_until, start};
+use crate::run::counts;
+use crate::run::table::Table;
+use crate::session::Session;
+use crate::session::atomic::{self, Content};
+use crate::session::outputs;
+use drape::cloth::Counters;
+use drape::cloth::energy::Energy;
+use drape::cloth::ledger::Ledger;
+use drape::error::{Error, Kind, Result};
+use drape::output::raw;
+use drape::scene::Scene;
+use drape::simulation::{Simulation, Timings};
+
+/// What `simulate` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Simulated time in seconds, rounded to a frame (default: the scene's render.time)
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
+    time: Option<f64>,
+    /// Number of frames
+    #[arg(long, value_name = "N")]
+    frames: Option<u64>,
+    /// Go on until the cloth is at rest, at most to --time or --frames (default: 60 s); exit code 1 if it is not
+    #[arg(long)]
+    until_rest: bool,
+    /// Write the last positions: x y z of each point, row by row, f64 little-endian (`-` = standard output)
+    #[arg(long, value_name = "FILE")]
+    positions: Option<PathBuf>,
+    /// Write a row a frame: time, energies, what each phase put in or took out, extremes (`-` = standard output);
+    /// a run that blows up or does not come to rest leaves the rows up to its last good frame
+    #[arg(long, value_name = "FILE", conflicts_with = "bench")]
+    csv: Option<PathBuf>,
+    /// Tell in the summary what each phase put in or took out; a step takes two to four times as long
+    #[arg(long, conflicts_with_all = ["bench", "hash"])]
+    ledger: bool,
+    /// Print the number and the state hash of each frame instead of a summary
+    #[arg(long)]
+    hash: bool,
+    /// Print the time per step instead of a summary, as JSON
+    #[arg(long, conflicts_with = "hash")]
+    bench: bool,
+    #[command(flatten)]
+    leniency: Leniency,
+}
+
+/// What was simulated.
+#[derive(Serialize)]
+struct Summary {
+    frames: u64,
+    time: f64,
+    points: usize,
+    springs: usize,
+    state_hash: String,
+    counters: Counters,
+    /// The energies at the end, in J.
+    energy: Energy,
+    /// What each phase put in over the whole run, in J, if a ledger was kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ledger: Option<Ledger>,
+    /// The state hash of each frame from 0, if asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    hashes: Vec<String>,
+}
+
+/// What the simulation took.
+#[derive(Serialize)]
+struct Bench {
+    ns_per_substep: f64,
+    substeps: u64,
+    points: usize,
+    springs: usize,
+    threads: usize,
+    stages: Timings,
+}
+
+/// Simulates, writes the positions, prints the result.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let until = args.until(&scene);
+    args.check_outputs(session)?;
+    let mut simulation = start(&scene, until.frames, args.leniency.allow_unstable, session)?;
+    if args.bench {
+        simulation.record_timings();
+    }
+    let mut table = args.csv.is_some().then(Table::new);
+    if table.is_some() || args.ledger {
+        simulation.record_ledger()?;
+    }
+    let mut hashes = Vec::new();
+    let moved = advance_until(&mut simulation, &scene, until, session, |now| {
+        table.iter_mut().for_each(|table| table.row(now));
+        args.take_hash(now, session, &mut hashes)
+    });
+    let moved = args.write_failed(table.as_ref(), moved)?;
+    args.write_positions(&simulation)?;
+    args.write_table(table.as_ref())?;
+    let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
+    if args.bench {
+        session.print_json(&bench(&simulation, springs, moved.elapsed))?;
+    } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
+        let summary = summary(&simulation, springs, hashes);
+        session.print(&summary, &summary.text())?;
+    }
+    moved.result()
+}
+
+impl Args {
+    fn until(&self, scene: &Scene) -> Until {
+        let time = self.time.or(self.until_rest.then_some(REST_TIME));
+        Until { frames: self.frames.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
+    }
+
+    fn check_outputs(&self, session: &Session) -> Result<()> {
+        outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
+        let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));
+        let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
+        outputs::check(&self.scene.inputs(), positions.chain(csv))
+    }
+
+    fn fills_stdout(&self) -> bool {
+        outputs::takes_stdout(&[&self.positions, &self.csv])
+    }
+
+    /// Prints the hash of a frame at once, or keeps it where all are printed as one object.
+    fn take_hash(&self, now: &Simulation, session: &Session, hashes: &mut Vec<String>) -> Result<()> {
+        if !self.hash {
+            return Ok(());
+        }
+        let hash = hex(now.state_hash());
+        if session.ui.json {
+            hashes.push(hash);
+            return Ok(());
+        }
+        atomic::write_stdout(format!("{} {hash}\n", now.frame()).as_bytes())
+    }
+
+    fn write_table(&self, table: Option<&Table>) -> Result<()> {
+        let pair = self.csv.as_ref().zip(table);
+        pair.map_or(Ok(()), |(path, table)| atomic::write(path, table.text().as_bytes()))
+    }
+
+    /// What came of a run; writes the table of one that blew up.
+    fn write_failed<T>(&self, table: Option<&Table>, moved: Result<T>) -> Result<T> {
+        if let Err(Error { kind: Kind::Unstable, .. }) = moved {
+            // Where the table cannot be written either, the run's own error tells more.
+            let _ = self.write_table(table);
+        }
+        moved
+    }
+
+    fn write_positions(&self, simulation: &Simulation) -> Result<()> {
+        let points = simulation.positions();
+        let bytes = || raw::points(&points.x, &points.y, &points.z);
+        self.positions.as_ref().map_or(Ok(()), |path| atomic::write(path, &bytes()))
+    }
+}
+
+fn summary(simulation: &Simulation, springs: usize, hashes: Vec<String>) -> Summary {
+    Summary {
+        frames: simulation.frame(),
+        time: simulation.time(),
+        points: simulation.positions().len(),
+        springs,
+        state_hash: hex(simulation.state_hash()),
+        counters: simulation.counters(),
+        energy: simulation.energy(),
+        ledger: simulation.ledger(),
+        hashes,
+    }
+}
+
+impl Summary {
+    fn text(&self) -> String {
+        let Self { frames, time, points, springs, state_hash, counters, energy, .. } = self;
+        let Energy { kinetic, spring, gravitational } = energy;
+        let entries = self.ledger.map(Ledger::entries).into_iter().flatten();
+        let ledger: String =
+            entries.map(|(name, joule)| format!("  by {name:15} {joule:+.6e} J\n")).collect();
+        format!(
+            "frames       {frames}\nsteps        {}\ntime         {time} s\npoints       {points}\n\
+             springs      {springs}\ncollisions   {} with objects, {} of the cloth with itself\n\
+             shortened    {} springs\nenergy       {:.6e} J = kinetic {kinetic:.6e}, spring {spring:.6e}, \
+             gravitational {gravitational:.6e}\n{ledger}state hash   {state_hash}\n",
+            counters.steps,
+            counters.object_moves,
+            counters.self_collision_moves,
+            counters.springs_limited,
+            energy.total(),
+        )
+    }
+}
+
+fn bench(simulation: &Simulation, springs: usize, elapsed: Duration) -> Bench {
+    let substeps = simulation.steps();
+    Bench {
+        #[expect(clippy::cast_precision_loss, reason = "a number of steps is far below 2^53")]
+        ns_per_substep: elapsed.as_secs_f64() * 1e9 / substeps.max(1) as f64,
+        substeps,
+        points: simulation.positions().len(),
+        springs,
+        threads: rayon::current_num_threads(),
+        stages: simulation.timings().unwrap_or_default(),
+    }
+}
+
+fn hex(hash: u64) -> String {
+    format!("{hash:016x}")
+}

@@ -1,0 +1,171 @@
+//! `drape stability`: outcome over stiffness, density and step.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::args::scene::SceneArgs;
+use crate::session::Session;
+use crate::session::atomic::{self, Content};
+use crate::session::outputs;
+use crate::session::progress::Tally;
+use drape::error::{Error, Kind, Result};
+use drape::scene::{Cloth, Scene};
+use drape_lab::page::short;
+use drape_lab::stability_map::extremes::{self, Row};
+use drape_lab::stability_map::range::Values;
+use drape_lab::stability_map::{Axes, Column, Map, page};
+
+/// Stiffness, density and steps of the whole map, and of a quick one, as the help has them.
+const FULL: [&str; 3] = ["500..500000:log7", "1.5..1500:log4", "1..500:log10"];
+const QUICK: [&str; 3] = ["500..500000:log3", "1.5..1500:log3", "1..300:log6"];
+
+/// What `stability` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Folder for index.html and results.json
+    #[arg(value_name = "OUT", default_value = "stability")]
+    out: PathBuf,
+    /// Stiffness in N/m: `500..500000:log4` for 4 values with equal ratios, `:lin4` with equal differences, or
+    /// `500,5000` (default: 500..500000:log7; --quick: 500..500000:log3)
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    ks: Option<Values>,
+    /// Density in kg/m², in the same form (default: 1.5..1500:log4; --quick: 1.5..1500:log3)
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    density: Option<Values>,
+    /// Steps per frame, in the same form (default: 1..500:log10; --quick: 1..300:log6)
+    #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
+    steps: Option<Values>,
+    /// Simulated time of each run, in seconds (default: 0.5; --quick: 0.2)
+    #[arg(long, value_name = "S", value_parser = crate::args::scene::seconds)]
+    time: Option<f64>,
+    /// A coarse map, shorter runs: half a minute of processor time for scenes/pinned2.json, instead of three minutes
+    #[arg(long)]
+    quick: bool,
+}
+
+/// What was found.
+#[derive(Serialize)]
+struct Results<'a> {
+    map: &'a Map,
+    extremes: &'a [Row],
+}
+
+/// Tries every cell and every extreme, writes the page and the numbers, prints the thresholds.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    let Some(cloth) = &scene.cloth else {
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is nothing to try"));
+    };
+    let files = ["index.html", "results.json"].map(|name| args.out.join(name));
+    outputs::make_folder(&args.out)?;
+    outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
+
+    let (map, rows) = args.measure(&scene, cloth, session)?;
+    let results = Results { map: &map, extremes: &rows };
+    let json = serde_json::to_string_pretty(&results)
+        .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+    let [index, data] = files;
+    atomic::write(&data, (json + "\n").as_bytes())?;
+    atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
+    session.print(&results, &text(&map, &rows, &index))
+}
+
+impl Args {
+    fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
+        let axes = self.axes();
+        let total = axes.pieces() + extremes::len();
+        let progress = Tally::new(&session.ui, "trying", total as u64);
+        let done = || {
+            progress.add(1);
+            session.signals.check()
+        };
+        let map = Map::new(scene, cloth, axes, &done)?;
+        let rows = extremes::table(&|sets| self.scene.load_with(sets), &mut || done())?;
+        Ok((map, rows))
+    }
+
+    fn axes(&self) -> Axes {
+        let [ks, density, steps] = if self.quick { QUICK } else { FULL };
+        let values = |asked: &Option<Values>, text: &str| match asked {
+            Some(values) => values.clone(),
+            None => Values::parse(text).unwrap_or(Values(Vec::new())),
+        };
+        Axes {
+            ks: values(&self.ks, ks).0,
+            density: values(&self.density, density).0,
+            steps: values(&self.steps, steps).whole(),
+            time: self.time.unwrap_or(if self.quick { 0.2 } else { 0.5 }),
+        }
+    }
+
+    fn title(&self) -> String {
+        let name = self.scene.path.file_stem().unwrap_or_default();
+        format!("Where {} is stable", name.to_string_lossy())
+    }
+}
+
+/// The thresholds, what came of the extremes, those that broke their promise, and where the page is.
+fn text(map: &Map, rows: &[Row], index: &Path) -> String {
+    let steps = |found: Option<f64>| found.map_or_else(|| "-".to_owned(), |steps| page::rate(steps, map.fps));
+    let line = |column: &Column| {
+        let [rest, worst, _] = column.theory;
+        format!(
+            "{:>10} {:>10} {:>15} {:>15} {:>15} {:>15}\n",
+            short(column.density),
+            short(column.ks),
+            steps(Some(rest)),
+            steps(column.at_rest),
+            steps(column.in_motion),
+            steps(Some(worst)),
+        )
+    };
+    let columns: String = map.columns.iter().map(line).collect();
+    let broken = rows.iter().filter(|row| !row.kept);
+    let broken: String =
+        broken.map(|row| format!("broken promise: {}: {}\n", row.what, row.happened)).collect();
+    format!(
+        "fewest stable steps a second, in brackets per frame\n\
+         {:>10} {:>10} {:>15} {:>15} {:>15} {:>15}\n{columns}\
+         extremes     {} (docs/extremes.md)\n{broken}page         {}\n",
+        "density",
+        "ks",
+        "at rest",
+        "tried at rest",
+        "tried in motion",
+        "at worst",
+        extremes::headline(rows),
+        index.display(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+
+    use super::*;
+    use crate::arguments::{Arguments, Command};
+
+    #[test]
+    fn the_help_has_the_defaults() {
+        let mut all = Arguments::command();
+        let help = all.find_subcommand_mut("stability").unwrap().render_long_help().to_string();
+        for default in FULL.iter().chain(&QUICK) {
+            assert!(Values::parse(default).is_ok() && help.contains(default), "{default}: {help}");
+        }
+        let axes = |option: &[&str]| {
+            let words = ["drape", "stability", "a.json"].iter().chain(option);
+            match Arguments::try_parse_from(words).unwrap().command {
+                Command::Stability(args) => args.axes(),
+                _ => panic!("another command"),
+            }
+        };
+        let [full, quick] = [axes(&[]), axes(&["--quick"])];
+        assert_eq!([full.ks.len(), full.density.len(), full.steps.len()], [7, 4, 10]);
+        for axes in [full, quick] {
+            assert!(help.contains(&format!(": {}", axes.time)), "{} s: {help}", axes.time);
+        }
+    }
+}

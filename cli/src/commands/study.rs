@@ -1,0 +1,81 @@
+//! `drape study`: speed against accuracy.
+
+use std::path::{Path, PathBuf};
+
+use crate::args::scene::SceneArgs;
+use crate::session::Session;
+use crate::session::atomic::{self, Content};
+use crate::session::outputs;
+use crate::session::progress::Tally;
+use drape::error::{Error, Kind, Result};
+use drape::texture_source::TextureSource;
+use drape_lab::study::matrix::{Extent, Source};
+use drape_lab::study::store::Store;
+use drape_lab::study::{self, Results};
+
+/// What `study` takes.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The folder for index.html, results.json, results.csv and the finished cells (default: the scene's name with
+    /// -study)
+    #[arg(value_name = "OUT")]
+    folder: Option<PathBuf>,
+    /// A small matrix, in under two minutes for a cloth of 50 x 50 points
+    #[arg(long)]
+    quick: bool,
+    /// Only runs with this in their name, however written, or with this integrator, and no pictures: `bdf2`,
+    /// `xpbd`, `BDF2 at 600 steps/s`, `k/m 8.33e4`; repeated: the runs of any of them
+    #[arg(long, value_name = "TEXT")]
+    only: Vec<String>,
+    /// Take textures from this folder (texture_1.png .. and cube/posx.png ..) instead of the built-in set
+    #[arg(long, value_name = "DIR")]
+    textures: Option<PathBuf>,
+}
+
+/// Runs what is not kept from an earlier study, writes the page, prints the advice.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    args.scene.load(session)?;
+    let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
+    let extent = if args.quick { Extent::quick() } else { Extent::full() };
+    let extent = Extent { only: args.only.clone(), ..extent };
+    let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
+    let folder = args.folder()?;
+    let steps = study::steps(&source, &extent)?;
+    let store = Store::new(&folder.join("cells"), atomic::write)?;
+    let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
+    let files = [&page, &json, &table].map(|file| (file.as_path(), Content::Text));
+    outputs::check(&args.scene.inputs(), files)?;
+    let progress = Tally::new(&session.ui, "studying, steps", steps);
+    let watch = |made: u32| {
+        progress.add(u64::from(made));
+        session.signals.check().map_err(|stopped| {
+            Error::new(stopped.kind, "stopped; what is finished is kept")
+                .with_help("the same command goes on from there")
+        })
+    };
+    let study = study::run(&source, &textures, &extent, &store, &watch)?;
+    drop(progress);
+    let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
+    let results = Results::new(&study, &name, store.counts());
+    let bytes = serde_json::to_vec_pretty(&results)
+        .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+    atomic::write(&json, &bytes)?;
+    atomic::write(&table, study::csv(&study).as_bytes())?;
+    atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
+    session.ui.note(&format!("{}: the page", page.display()));
+    session.print(&results, &results.text())
+}
+
+impl Args {
+    fn folder(&self) -> Result<PathBuf> {
+        let beside = || {
+            let name = self.scene.path.file_stem()?.to_string_lossy();
+            Some(Path::new(&format!("{name}-study")).to_owned())
+        };
+        let missing =
+            || Error::new(Kind::Usage, "the folder needs a name").with_help("name it after the scene");
+        self.folder.clone().or_else(beside).ok_or_else(missing)
+    }
+}

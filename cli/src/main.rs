@@ -1,0 +1,60 @@
+//! The command line program `drape`: one file a command, over what they share.
+//!
+//! Standard output carries the result that was asked for and nothing else; everything else goes
+//! to standard error. The exit code is that of the error's [`Kind`].
+
+mod args;
+mod arguments;
+mod commands;
+mod animation;
+mod run;
+mod session;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use drape::error::{Error, Kind, Result};
+
+use arguments::{Arguments, Command};
+use commands::{
+    animate, check, compare, compare_positions, export, gallery, info, meta, render, simulate, stability,
+    study,
+};
+use session::signals::Signals;
+use session::ui::Ui;
+use session::{Session, exit_code, guard};
+
+fn main() -> ExitCode {
+    let json = std::env::args_os().any(|argument| argument == "--json");
+    ExitCode::from(guard::guarded(json, || match Arguments::try_parse() {
+        Ok(arguments) => {
+            let ui = arguments.ui();
+            exit_code(&ui, execute(&arguments, ui))
+        }
+        Err(refusal) => arguments::refuse(&refusal, &Ui::before_parsing(json)),
+    }))
+}
+
+fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
+    let session = Session { ui, signals: Signals::install()? };
+    rayon::ThreadPoolBuilder::new().num_threads(arguments.threads()).build_global().map_err(|e| {
+        Error::new(Kind::Io, format!("cannot start the threads: {e}"))
+            .with_help("ask for fewer with --threads")
+    })?;
+    match &arguments.command {
+        Command::Render(args) => render::run(args, &session),
+        Command::Animate(args) => animate::run(args, &session),
+        Command::Simulate(args) => simulate::run(args, &session),
+        Command::Export(args) => export::run(args, &session),
+        Command::Compare(args) => compare::run(args, &session),
+        Command::ComparePositions(args) => compare_positions::run(args, &session),
+        Command::Info(args) => info::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
+        Command::Check(args) => check::run(args, &session),
+        Command::Schema => meta::schema(),
+        Command::Completions(args) => meta::completions(args),
+        Command::Man(args) => meta::man(args),
+        Command::Stability(args) => stability::run(args, &session),
+        Command::Gallery(args) => gallery::run(args, &session),
+    }
+}

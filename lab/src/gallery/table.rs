@@ -1,0 +1,110 @@
+//! The table of the figures: `figures.json` beside this file, in the order of the report.
+
+use serde::Deserialize;
+
+use drape::error::{Error, Kind, Result};
+
+/// A part of the report.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Its heading.
+    pub title: String,
+    /// Its figures, in order.
+    pub figures: Vec<Figure>,
+}
+
+/// A figure of the report.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// The figure, then the pictures to be seen beside it.
+    pub pictures: Vec<Picture>,
+    /// What is to be known about it where it came from a fault; empty otherwise.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// A picture and the command that makes it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Picture {
+    /// The name of its file without the ending.
+    pub name: String,
+    /// What it shows.
+    pub caption: String,
+    /// The stock scene: a file in `scenes/` without the ending.
+    pub scene: String,
+    /// Further arguments of `render`, none of which holds a space.
+    pub arguments: String,
+}
+
+impl Figure {
+    /// The name of the figure: that of its first picture.
+    pub fn name(&self) -> &str {
+        self.pictures.first().map_or("", |picture| &picture.name)
+    }
+}
+
+impl Picture {
+    /// The words of the command that makes this picture alone, in the repository's folder.
+    pub fn words(&self) -> Vec<String> {
+        let Self { name, scene, arguments, .. } = self;
+        let command = format!("drape render scenes/{scene}.json {name}.png {arguments}");
+        command.split_whitespace().map(str::to_owned).collect()
+    }
+
+    /// The command for a shell. Brackets are quoted, since some shells take them for file names.
+    pub fn command(&self) -> String {
+        let quoted = |word: String| if word.contains('[') { format!("'{word}'") } else { word };
+        self.words().into_iter().map(quoted).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Every part of the report.
+///
+/// # Errors
+/// [`Kind::Internal`] when the table that is built in cannot be read.
+pub fn parts() -> Result<Vec<Part>> {
+    serde_json::from_str(include_str!("figures.json"))
+        .map_err(|e| Error::new(Kind::Internal, format!("the table of figures: {e}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn there_are_51_figures_with_names_of_their_own() {
+        let figures: Vec<Figure> = parts().unwrap().into_iter().flat_map(|part| part.figures).collect();
+        assert_eq!(figures.len(), 51);
+        let pictures: Vec<&Picture> = figures.iter().flat_map(|figure| &figure.pictures).collect();
+        let names: BTreeSet<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
+        assert_eq!(names.len(), pictures.len());
+        assert!(pictures.iter().all(|picture| !picture.caption.is_empty()));
+        assert!(figures.iter().all(|figure| figure.name().starts_with("part")));
+    }
+
+    /// A picture that stands beside a figure is there for a reason.
+    #[test]
+    fn a_figure_with_company_says_why() {
+        for figure in parts().unwrap().iter().flat_map(|part| &part.figures) {
+            assert!(figure.pictures.len() == 1 || !figure.note.is_empty(), "{}", figure.name());
+        }
+    }
+
+    #[test]
+    fn a_shell_leaves_every_command_as_it_is() {
+        for picture in parts().unwrap().iter().flat_map(|part| &part.figures).flat_map(|f| &f.pictures) {
+            let command = picture.command();
+            let plain = |c: char| c.is_ascii_alphanumeric() || " ./-_=,+".contains(c);
+            let (bare, quoted): (Vec<_>, Vec<_>) =
+                command.split('\'').enumerate().partition(|(place, _)| place % 2 == 0);
+            assert!(bare.iter().all(|(_, text)| text.chars().all(plain)), "{command}");
+            assert!(quoted.iter().all(|(_, text)| text.contains('[') && !text.contains(' ')), "{command}");
+            assert_eq!(command.replace('\'', ""), picture.words().join(" "));
+        }
+    }
+}

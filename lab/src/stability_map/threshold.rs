@@ -1,0 +1,151 @@
+//! The fewest steps a second that a cloth stands, found by trying.
+//!
+//! Two figures. *At rest*: a cloth without gravity and contact, moved a little out of its rest
+//! shape, either keeps vibrating or grows without end; which it does changes at `dt ω = limit`,
+//! sharply. *In motion*: the scene itself, as long as it is asked to run; it changes between the
+//! bound at rest and the one at worst, as far as the cloth is deformed on the way.
+
+use super::outcome::run;
+use drape::cloth::Points;
+use drape::cloth::stability::Stability;
+use drape::error::Result;
+use drape::math::splitmix64;
+use drape::scene::{Cloth, Integrator, Scene, SelfCollision};
+use drape::simulation::Simulation;
+
+/// Steps in which a vibration at rest has to show whether it grows. At the least damping a step that
+/// is 0.1 % too long multiplies it by e^50 in so many, at the most damping one that is 1 % too
+/// long by e^40.
+const STEPS: u32 = 2000;
+
+/// Steps that a cloth in motion is given at least: a step 1 % too long needs some hundred to show.
+const SHORTEST: f64 = 600.0;
+
+/// How far above the bound at worst rounding cannot hide that a step is stable.
+const ABOVE: f64 = 1.0 + 1e-12;
+
+/// Steps between two looks at the energy, which costs as much as a step.
+const BLOCK: u32 = 20;
+
+/// The growth of energy that a stable vibration does not reach: 0.1 % below the limit its energy
+/// as it is measured here varies 500 times.
+const GROWTH: f64 = 1e6;
+
+/// How far points are moved out of the rest shape, of the distance between neighbours.
+const NUDGE: f64 = 1e-8;
+
+/// The steps a second at which the cloth of `scene` at rest becomes stable, to 0.1 %; none for an
+/// integrator that stands every step, or springs without stiffness.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
+    let stability = Stability::new(cloth, &scene.sim)?;
+    if !has_limit(scene, &stability) {
+        return Ok(None);
+    }
+    let expected = stability.omega_rest / stability.limit;
+    let mut rest = scene.clone();
+    rest.planes.clear();
+    rest.spheres.clear();
+    rest.sim.gravity.fill(0.0);
+    rest.sim.self_collision = SelfCollision::Off;
+    rest.sim.stretch_limit = None;
+    rest.sim.steps_per_frame = 1;
+    bisect([0.5 * expected, 2.0 * expected], 0.001, |steps_per_second| {
+        rest.sim.fps = steps_per_second;
+        grows(&rest)
+    })
+}
+
+/// The steps a second at which `scene` becomes stable over `time` seconds, to 1 %, and no more than
+/// at worst if it is stable there; none as for [`at_rest`], or if it is stable at half the bound at
+/// rest, or unstable at twice the one at worst.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>> {
+    let stability = Stability::new(cloth, &scene.sim)?;
+    if !has_limit(scene, &stability) {
+        return Ok(None);
+    }
+    let mut scene = scene.clone();
+    let steps_per_frame = f64::from(scene.sim.steps_per_frame);
+    let rest = stability.omega_rest / stability.limit;
+    let worst = stability.omega_safe / stability.limit_worst * ABOVE;
+    let mut is_unstable = |steps_per_second: f64| {
+        scene.sim.fps = steps_per_second / steps_per_frame;
+        let shortest = frames(SHORTEST / steps_per_frame, 1.0);
+        Ok(run(&scene, frames(time, scene.sim.fps).max(shortest))?.outcome.is_unstable())
+    };
+    // The edge is often at worst itself, above which the ledger does not judge: an interval across it
+    // would have an end above.
+    match bisect([0.5 * rest, worst], 0.01, &mut is_unstable)? {
+        None => bisect([worst, 2.0 * worst], 0.01, is_unstable),
+        found => Ok(found),
+    }
+}
+
+/// Whether there is a step that is too long: Verlet's scheme, and springs that can vibrate.
+fn has_limit(scene: &Scene, stability: &Stability) -> bool {
+    scene.sim.integrator == Integrator::Verlet && stability.omega_rest > 0.0
+}
+
+/// The frames that `time` seconds take, at least one.
+pub fn frames(time: f64, fps: f64) -> u64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a float to int cast saturates"
+    )]
+    let frames = (time * fps).ceil().max(1.0) as u64;
+    frames
+}
+
+/// Where `is_unstable` becomes false between two positive numbers, to the relative `tolerance`: the
+/// upper end of the last interval. None if it does not change from true to false.
+fn bisect(
+    [mut low, mut high]: [f64; 2],
+    tolerance: f64,
+    mut is_unstable: impl FnMut(f64) -> Result<bool>,
+) -> Result<Option<f64>> {
+    if !is_unstable(low)? || is_unstable(high)? {
+        return Ok(None);
+    }
+    while high > low * (1.0 + tolerance) {
+        let middle = (low * high).sqrt();
+        *if is_unstable(middle)? { &mut low } else { &mut high } = middle;
+    }
+    Ok(Some(high))
+}
+
+/// Whether a small vibration of the cloth of `scene` grows without end.
+fn grows(scene: &Scene) -> Result<bool> {
+    let mut simulation = Simulation::new(scene)?;
+    simulation.allow_unstable();
+    let moved = nudged(simulation.positions(), scene);
+    simulation.set_state(moved.clone(), moved)?;
+    let start = simulation.energy().spring;
+    for _ in 0..STEPS / BLOCK {
+        (0..BLOCK).for_each(|_| simulation.step());
+        let energy = simulation.energy();
+        let growth = (energy.kinetic + energy.spring) / start;
+        if growth > GROWTH || growth.is_nan() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The points of the cloth of `scene`, each moved at random by up to [`NUDGE`] along each axis.
+fn nudged(x: &Points, scene: &Scene) -> Points {
+    let spacing = scene.cloth.as_ref().map_or(0.0, |c| c.width / (c.num_width_points.max(2) - 1) as f64);
+    let mut moved = x.clone();
+    for (axis, component) in [&mut moved.x, &mut moved.y, &mut moved.z].into_iter().enumerate() {
+        for (p, value) in component.iter_mut().enumerate() {
+            let noise = (splitmix64((3 * p + axis) as u64) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+            *value += NUDGE * spacing * noise;
+        }
+    }
+    moved
+}

@@ -1,0 +1,168 @@
+//! One run: where the points are at each moment, with what energy, and how long it took.
+
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use drape::cloth::Points;
+use drape::error::Result;
+use drape::scene::Scene;
+use drape::simulation::Simulation;
+
+/// Most steps between two looks at what was spent.
+const PATIENCE: u32 = 10;
+
+/// How many times as much may be spent to reach the first moment: a run that ends before it tells nothing.
+const FIRST: f64 = 2.0;
+
+/// What a run gave.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// The moments; those after the cloth was lost or the run given up are absent.
+    pub moments: Vec<Moment>,
+    /// Springs that were visited per simulated second: to compute a force or a product with the
+    /// stiffness matrix, or to limit a stretch.
+    pub springs: f64,
+    /// Wall time per simulated second, in seconds.
+    pub wall: f64,
+    /// Whether it was given up because it became too dear.
+    pub given_up: bool,
+}
+
+/// The cloth at one moment.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Moment {
+    /// Simulated time, in seconds.
+    pub time: f64,
+    /// Components of the positions, in metres.
+    pub x: [Vec<f64>; 3],
+    /// Total energy above that at the start, in J.
+    pub energy: f64,
+    /// Energy of height above that at the start, in J.
+    pub height: f64,
+    /// Largest length of a spring over its rest length.
+    pub stretch: f64,
+}
+
+/// How long a run is, and what it may cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits<'a> {
+    /// When it is looked at, in tenths of a second, ascending.
+    pub tenths: &'a [u32],
+    /// After how many springs, about, it is given up, or twice as many before the first moment: how
+    /// many an implicit step visits is not known before it is made.
+    pub most_springs: f64,
+}
+
+/// Runs `scene` at `rate` steps per second, a multiple of 10. `watch` is told the steps that were made
+/// since it was last called, in the end those of a whole run, and can end the run.
+///
+/// # Errors
+/// Those of [`Simulation::new`] and of `watch`.
+pub fn run(
+    scene: &Scene,
+    rate: u32,
+    limits: Limits<'_>,
+    watch: &dyn Fn(u32) -> Result<()>,
+) -> Result<Trajectory> {
+    let left = limits.tenths.last().map_or(0, |last| rate / 10 * last);
+    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, left, watch };
+    run.simulation.allow_unstable();
+    let mut probe = Probe::new(scene)?;
+    let (mut moments, mut given_up, mut done) = (Vec::new(), false, 0);
+    for &tenth in limits.tenths {
+        let steps = rate / 10 * tenth - done;
+        let most = limits.most_springs * if done == 0 { FIRST } else { 1.0 };
+        let in_time = run.advance(steps - 1, most)?;
+        let before = run.simulation.positions().clone();
+        given_up = !(in_time && run.advance(1, most)?);
+        if given_up {
+            break;
+        }
+        done += steps;
+        match probe.moment(&run.simulation, &before, f64::from(tenth) / 10.0)? {
+            Some(moment) => moments.push(moment),
+            None => break,
+        }
+    }
+    watch(run.left)?;
+    let simulated = run.simulation.steps().max(1) as f64 / f64::from(rate);
+    let wall = run.elapsed.as_secs_f64() / simulated;
+    Ok(Trajectory { moments, springs: springs(&run.simulation) / simulated, wall, given_up })
+}
+
+/// Springs that were visited so far.
+#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+fn springs(simulation: &Simulation) -> f64 {
+    let counters = simulation.counters();
+    (counters.springs_evaluated + counters.springs_checked) as f64
+}
+
+/// A run in progress.
+struct Run<'a> {
+    simulation: Simulation,
+    elapsed: Duration,
+    /// Steps that `watch` was not told of yet.
+    left: u32,
+    watch: &'a dyn Fn(u32) -> Result<()>,
+}
+
+impl Run<'_> {
+    /// Makes `steps` steps; whether no more than `most` springs were visited before the last of them.
+    fn advance(&mut self, steps: u32, most: f64) -> Result<bool> {
+        let mut left = steps;
+        while left > 0 {
+            if springs(&self.simulation) > most {
+                return Ok(false);
+            }
+            let some = left.min(PATIENCE);
+            let started = Instant::now();
+            (0..some).for_each(|_| self.simulation.step());
+            self.elapsed += started.elapsed();
+            left -= some;
+            self.left -= some;
+            (self.watch)(some)?;
+        }
+        Ok(true)
+    }
+}
+
+/// Measures energies with velocities at the moment itself: `(x₊ - x₋) / 2 dt` over the steps before and
+/// after it, which is second order for every method; `(x - x₋) / dt` would lag half a step behind.
+struct Probe {
+    simulation: Simulation,
+    start: [f64; 2],
+}
+
+impl Probe {
+    fn new(scene: &Scene) -> Result<Self> {
+        let mut simulation = Simulation::new(scene)?;
+        let x = simulation.positions().clone();
+        simulation.set_state(x.clone(), x)?;
+        let energy = simulation.energy();
+        Ok(Self { start: [energy.total(), energy.gravitational], simulation })
+    }
+
+    /// The state of `now`, whose points were at `before` one step ago; nothing once a point is lost.
+    fn moment(&mut self, now: &Simulation, before: &Points, time: f64) -> Result<Option<Moment>> {
+        let mut next = now.clone();
+        next.step();
+        let (x, after) = (now.positions(), next.positions());
+        let mut last = x.clone();
+        for p in 0..x.len() {
+            last.set(p, x.get(p) - (after.get(p) - before.get(p)) * 0.5);
+        }
+        self.simulation.set_state(x.clone(), last)?;
+        let energy = self.simulation.energy();
+        let [total, height] = self.start;
+        let moment = Moment {
+            time,
+            x: [x.x.clone(), x.y.clone(), x.z.clone()],
+            energy: energy.total() - total,
+            height: energy.gravitational - height,
+            stretch: self.simulation.extremes().stretch,
+        };
+        // An energy that is no number, or too large for one, belongs to a cloth that is lost.
+        Ok(Some(moment).filter(|moment| moment.energy.is_finite() && moment.stretch.is_finite()))
+    }
+}

@@ -1,7 +1,0 @@
-//! The command line program; everything it does is in the library.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    drape::cli::run()
-}

@@ -1,0 +1,131 @@
+//! Every command of the README does what it says, run in an empty folder.
+
+use std::{
+    fs,
+    os::unix::fs::symlink,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use rayon::prelude::*;
+
+fn repository() -> PathBuf {
+    crate::repository::path("")
+}
+
+fn readme() -> String {
+    fs::read_to_string(repository().join("README.md")).expect("a README")
+}
+
+/// The lines of all fenced blocks of a language.
+fn lines_of(language: &str) -> Vec<String> {
+    let (text, fence) = (readme(), format!("```{language}\n"));
+    let blocks = text.split(&fence).skip(1);
+    let lines = blocks.flat_map(|block| block.split("```").next().unwrap_or_default().lines());
+    lines.map(str::to_owned).collect()
+}
+
+/// A folder with `drape` on the path and the repository's scenes in it.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    symlink(repository().join("scenes"), folder.path().join("scenes")).expect("a link to the scenes");
+    fs::create_dir(folder.path().join("bin")).expect("a folder");
+    symlink(assert_cmd::cargo::cargo_bin!("drape"), folder.path().join("bin/drape")).expect("a link");
+    folder
+}
+
+fn shell(line: &str, folder: &Path) -> Output {
+    let path = std::env::var("PATH").expect("a path");
+    Command::new("bash")
+        .args(["-euo", "pipefail", "-c", line])
+        .current_dir(folder)
+        .env("PATH", format!("{}:{path}", folder.join("bin").display()))
+        .output()
+        .expect("bash runs")
+}
+
+/// The files that a line names as its outputs.
+fn outputs(line: &str) -> Vec<&str> {
+    let code = line.split('#').next().unwrap_or_default();
+    let words = code.split_whitespace().filter(|word| !word.contains(['/', '$']));
+    words.filter(|word| [".png", ".apng", ".obj"].iter().any(|ending| word.ends_with(ending))).collect()
+}
+
+/// What a command left in the folder; folders end in `/`.
+fn left(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry"));
+    let name = |entry: fs::DirEntry| {
+        let slash = if entry.path().is_dir() { "/" } else { "" };
+        format!("{}{slash}", entry.file_name().to_string_lossy())
+    };
+    entries.map(name).filter(|name| !["scenes/", "bin/"].contains(&name.as_str())).collect()
+}
+
+/// Whether `.gitignore` has `/NAME`, or `/*.ENDING` for the name's ending.
+fn ignored(name: &str) -> bool {
+    let text = fs::read_to_string(repository().join(".gitignore")).expect("a .gitignore");
+    let ending = name.rsplit_once('.').map(|(_, ending)| format!("/*.{ending}"));
+    text.lines().any(|line| line == format!("/{name}") || Some(line) == ending.as_deref())
+}
+
+#[test]
+fn every_command_runs_and_leaves_what_it_names() {
+    let lines = lines_of("sh");
+    assert!(lines.len() >= 20, "found {} commands", lines.len());
+    all_run(&lines);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn every_long_command_runs() {
+    let lines = lines_of("bash");
+    assert_eq!(lines.len(), 3);
+    all_run(&lines);
+}
+
+fn all_run(lines: &[String]) {
+    let failed: Vec<String> = lines
+        .par_iter()
+        .filter_map(|line| {
+            let folder = folder();
+            let output = shell(line, folder.path());
+            let missing: Vec<_> =
+                outputs(line).into_iter().filter(|name| !folder.path().join(name).is_file()).collect();
+            let said = String::from_utf8_lossy(&output.stderr);
+            let seen_by_git =
+                left(folder.path()).into_iter().filter(|name| !ignored(name)).collect::<Vec<_>>();
+            let wrong = !output.status.success() || !missing.is_empty() || !seen_by_git.is_empty();
+            wrong.then(|| {
+                format!(
+                    "{line}\n  {}, missing {missing:?}, not ignored {seen_by_git:?}\n{said}",
+                    output.status
+                )
+            })
+        })
+        .collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn the_loop_over_stiffness_leaves_a_picture_each() {
+    let line = lines_of("sh").into_iter().find(|line| line.starts_with("for ks")).expect("the loop");
+    let folder = folder();
+    assert!(shell(&line, folder.path()).status.success(), "{line}");
+    let pictures =
+        ["ks-500.png", "ks-5000.png", "ks-50000.png"].map(|name| fs::read(folder.path().join(name)).ok());
+    assert!(pictures.iter().all(Option::is_some), "{line}");
+    assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "stiffness shows");
+}
+
+#[test]
+fn the_mistake_is_shown_as_the_readme_shows_it() {
+    let folder = folder();
+    let scene = fs::read_to_string(repository().join("scenes/pinned2.json")).expect("a scene");
+    fs::write(folder.path().join("cloth.json"), scene.replace("\"damping\"", "\"dampning\""))
+        .expect("a file");
+    let said = shell("drape check cloth.json", folder.path()).stdout;
+    let shown = lines_of("text").join("\n");
+    let expected = shown.split("\nscene file").next().expect("the first block");
+    assert!(expected.starts_with("error["), "the README shows a mistake first");
+    assert!(String::from_utf8_lossy(&said).contains(expected), "{}", String::from_utf8_lossy(&said));
+}

@@ -1,0 +1,4 @@
+//! Pictures against a real GL driver.
+
+mod harness;
+mod parity;

@@ -1,0 +1,173 @@
+//! The rasteriser and the shaders agree with OpenGL.
+//!
+//! The project's own GLSL files run on OpenGL 3.3 core (Mesa's software driver, without a window)
+//! over the same vertices and uniforms. Every pixel must show the same triangle of the same object
+//! and the same colour, up to one level of 255 in few pixels; the same picture shaded in f64 tells
+//! who is right there. Textures are given as floats, since
+//! the driver filters 8-bit textures with 8-bit weights.
+
+use std::fmt;
+
+use super::harness::context::Context;
+use super::harness::device::Device;
+use super::harness::lines::LineTally;
+use super::harness::object::objects;
+use super::harness::tally::Tally;
+use drape::cloth::Points;
+use drape::render::{Options, Renderer, Shading};
+use drape::scene::{Overrides, Scene, Shader, load};
+use drape::simulation::Simulation;
+use drape::texture_source::TextureSource;
+
+const SCENES: [&str; 5] = ["sphere", "plane", "pinned2", "pinned4", "selfCollision"];
+const SIZES: [&str; 3] = ["[1024,800]", "[1920,1080]", "[333,217]"];
+const RESOLUTIONS: [u32; 3] = [16, 40, 128];
+
+/// From the default over high, above and behind to so near that the near plane cuts the cloth.
+const CAMERAS: [&[&str]; 5] = [
+    &[],
+    &["camera.polar=55", "camera.azimuth=30", "camera.distance=1.6"],
+    &["camera.polar=0", "camera.distance=2"],
+    &["camera.polar=110", "camera.azimuth=200", "camera.distance=1.2", "camera.near=0.2", "camera.far=9"],
+    &["camera.polar=80", "camera.azimuth=75", "camera.distance=0.6", "camera.near=0.4", "camera.hfov=90"],
+];
+
+/// Under the cloth, close to the ball; with the last camera inside of what the near plane cuts off.
+const BALL: &[&str] = &["camera.target=[0.5,0.2,0.5]", "camera.distance=0.5"];
+
+/// Twice the same plane ties in every pixel, and the first must win.
+const PLANE: &str = r#"{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.5}"#;
+
+/// No two uniforms alike, so that none can stand in for another.
+const MATERIAL: &[&str] = &[
+    "light.color=[1,0.8,0.6]",
+    "light.intensity=[3,2.5,2]",
+    "light.position=[1.5,1.75,1]",
+    "material.color=[0.9,0.7,0.8]",
+    "material.ka=0.15",
+    "material.kd=0.6",
+    "material.ks=0.35",
+    "material.shininess=20.5",
+    "material.km=0.3",
+    "material.normal_scaling=3",
+    "material.height_scaling=0.06",
+    "material.texture=texture_3",
+];
+
+/// One picture: a stock scene with changes, after so many seconds.
+struct Case {
+    scene: &'static str,
+    seconds: usize,
+    shader: Shader,
+    sets: Vec<String>,
+}
+
+/// Every stock scene with every shader, while times, sizes and cameras take turns. Then the ball of
+/// every resolution with every shader and uniforms of its own; and a
+/// scene full of ties.
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (s, scene) in SCENES.into_iter().enumerate() {
+        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate() {
+            let mut sets = vec![format!("render.size={}", SIZES[(s + p) % 3])];
+            sets.extend(CAMERAS[(s + p + p / 5) % 5].iter().map(|set| set.to_string()));
+            cases.push(Case { scene, seconds: (s + p + p / 3) % 3, shader, sets });
+        }
+    }
+    for (r, resolution) in RESOLUTIONS.into_iter().enumerate() {
+        for (p, &(_, shader)) in Shader::NAMES.iter().enumerate() {
+            let mut sets = vec![format!("sphere.resolution=[{resolution},{resolution}]")];
+            sets.push(format!("render.size={}", SIZES[(r + p) % 3]));
+            sets.extend(CAMERAS[(r + p) % 5].iter().chain(BALL).chain(MATERIAL).map(|set| set.to_string()));
+            cases.push(Case { scene: "sphere", seconds: 0, shader, sets });
+        }
+    }
+    let sets = vec![format!("plane=[{PLANE},{PLANE}]")];
+    cases.push(Case { scene: "plane", seconds: 2, shader: Shader::Normal, sets });
+    cases
+}
+
+fn scene(name: &str, sets: Vec<String>) -> Scene {
+    let path = crate::repository::path("scenes").join(format!("{name}.json"));
+    load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene
+}
+
+/// The positions of a stock scene's cloth after 0, 1 and 2 s.
+fn states(name: &str) -> [Points; 3] {
+    let mut simulation = Simulation::new(&scene(name, Vec::new())).unwrap();
+    [0, 90, 90].map(|frames| {
+        (0..frames).for_each(|_| simulation.advance_frame().unwrap());
+        simulation.positions().clone()
+    })
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = self.sets.iter().filter(|set| !MATERIAL.contains(&set.as_str()));
+        let groups = ["render.", "camera.", "sphere."];
+        let short = |set: &String| groups.iter().fold(set.clone(), |set, group| set.replace(group, ""));
+        let sets: Vec<_> = shown.map(short).collect();
+        write!(f, "{} {} s {} {}", self.scene, self.seconds, self.shader.name(), sets.join(" "))
+    }
+}
+
+impl Case {
+    fn scene(&self) -> Scene {
+        let mut sets = self.sets.clone();
+        sets.push(format!("material.shader={}", self.shader.name()));
+        scene(self.scene, sets)
+    }
+
+    fn compare(&self, device: &mut Device<'_>, points: &Points) -> Tally {
+        let scene = self.scene();
+        let renderer = Renderer::new(&scene, &TextureSource::BuiltIn).unwrap();
+        let own = renderer.draw(points, &Options { ids: true, ..Options::default() });
+        let exact = renderer.draw(points, &Options { shading: Shading::F64, ..Options::default() });
+        let objects = objects(&scene, points);
+        let gl = device.draw(&scene, &objects);
+        Tally::between([&own, &exact], &gl, &scene, &objects)
+    }
+}
+
+/// A coarse cloth on its way down, so that springs are long, from three sides.
+fn compare_lines(device: &mut Device<'_>) -> LineTally {
+    let mut tally = LineTally::default();
+    for camera in &CAMERAS[..3] {
+        let mut sets: Vec<String> = camera.iter().map(|set| set.to_string()).collect();
+        let coarse = ["cloth.num_width_points=7", "cloth.num_height_points=7", "cloth.pinned=[[0,0],[6,0]]"];
+        sets.extend(coarse.map(String::from));
+        sets.extend(["render.size=[512,400]", "material.shader=wireframe"].map(String::from));
+        let scene = scene("pinned2", sets);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        (0..20).for_each(|_| simulation.advance_frame().unwrap());
+        tally.add(device, &scene, simulation.positions());
+    }
+    tally
+}
+
+#[test]
+fn opengl_draws_the_same_pictures() {
+    let context = match Context::open() {
+        Ok(context) => context,
+        Err(why) if std::env::var_os("DRAPE_REQUIRE_GL").is_some() => panic!("no OpenGL: {why}"),
+        Err(why) => return println!("skipped, for there is no OpenGL 3.3 here: {why}"),
+    };
+    println!("{}", context.driver());
+    let mut device = Device::new(&context);
+    let states = SCENES.map(|name| (name, states(name)));
+    let (mut faults, mut all) = (Vec::new(), Tally::default());
+    println!("{}", Tally::HEADER);
+    for case in cases() {
+        let (_, states) = states.iter().find(|(name, _)| *name == case.scene).unwrap();
+        let tally = case.compare(&mut device, &states[case.seconds]);
+        println!("{tally} {case}");
+        all += &tally;
+        faults.extend(tally.faults().into_iter().map(|fault| format!("{case}: {fault}")));
+    }
+    println!("{all} all together");
+    faults.extend(all.faults().into_iter().map(|fault| format!("all together: {fault}")));
+    let lines = compare_lines(&mut device);
+    println!("{lines}");
+    faults.extend(lines.faults());
+    assert!(faults.is_empty(), "{faults:#?}");
+}

@@ -1,0 +1,25 @@
+//! What the engine promises, a folder a subject; `tests/README.md` has a line for each file.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    reason = "a test may panic, and numbers are small"
+)]
+
+mod cloth;
+mod gl;
+mod integrators;
+mod layers;
+#[path = "../support/naive/mod.rs"]
+mod naive;
+mod output;
+mod raster;
+mod render;
+#[path = "../support/repository.rs"]
+mod repository;
+mod scene;
+#[path = "../support/scenes/mod.rs"]
+mod scenes;
+mod shader;
+mod support;
+mod textures;

@@ -1,0 +1,3 @@
+//! What leaves the engine.
+
+mod comparator;

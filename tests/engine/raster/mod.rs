@@ -1,0 +1,11 @@
+//! The rasteriser: what is covered, what is seen, what is interpolated.
+
+mod clipping;
+mod coverage;
+mod extremes;
+mod interpolation;
+mod lanes;
+mod lines;
+mod quantisation;
+mod samples;
+mod visibility;

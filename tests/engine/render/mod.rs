@@ -1,0 +1,5 @@
+//! From a scene to a picture.
+
+mod camera;
+mod mesh;
+mod renderer;

@@ -1,0 +1,332 @@
+//! Promise: a valid scene means exactly what it says.
+
+use std::fs;
+
+use drape::scene::{
+    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides, Plane,
+    Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
+};
+
+const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];
+
+fn stock(name: &str) -> Scene {
+    let loaded = load(&crate::repository::path(&format!("scenes/{name}.json")), &Overrides::default())
+        .expect("a stock scene loads");
+    assert_eq!(loaded.warnings, [], "{name}");
+    loaded.scene
+}
+
+fn with(text: &str, sets: &[&str]) -> Scene {
+    let sets = sets.iter().map(ToString::to_string).collect();
+    load_text("scene.json", text, &Overrides { patches: vec![], sets }).expect("a valid scene").scene
+}
+
+fn material() -> Material {
+    Material {
+        shader: Shader::Phong,
+        color: Vec3::new(1.0, 1.0, 1.0),
+        ka: 0.1,
+        kd: 0.7,
+        ks: 1.0,
+        shininess: 64.0,
+        km: 0.25,
+        normal_scaling: 2.0,
+        height_scaling: 0.1,
+        texture: "texture_1".into(),
+        height_map: "texture_2".into(),
+        environment: "cube".into(),
+    }
+}
+
+/// A scene in which nothing but `{}` is said.
+fn empty() -> Scene {
+    Scene {
+        cloth: None,
+        planes: vec![],
+        spheres: vec![],
+        sim: Sim {
+            fps: 90.0,
+            steps_per_frame: 30,
+            gravity: Vec3::new(0.0, -9.8, 0.0),
+            integrator: Integrator::Verlet,
+            iterations: 1,
+            tolerance: 1e-4,
+            precision: Precision::F64,
+            start: Start::Report,
+            damping: Damping::PerStep,
+            stretch_limit: Some(0.1),
+            stretch_passes: 1,
+            self_collision: SelfCollision::SameBox,
+            contact: Contact::Report,
+        },
+        camera: Camera {
+            target: None,
+            distance: None,
+            polar: 90.0,
+            azimuth: 0.0,
+            hfov: 50.0,
+            vfov: 35.0,
+            near: 0.01,
+            far: 10_000.0,
+        },
+        light: Light {
+            position: Vec3::new(0.5, 2.0, 2.0),
+            intensity: Vec3::new(3.0, 3.0, 3.0),
+            color: Vec3::new(1.0, 1.0, 1.0),
+        },
+        render: Render {
+            size: [1024, 800],
+            samples: 1,
+            background: Vec3::new(0.25, 0.25, 0.25),
+            time: 2.0,
+            filter: Filter::Bilinear,
+        },
+    }
+}
+
+fn stock_cloth() -> Cloth {
+    Cloth {
+        width: 1.0,
+        height: 1.0,
+        num_width_points: 50,
+        num_height_points: 50,
+        thickness: 0.0095,
+        orientation: Orientation::Horizontal,
+        pinned: vec![],
+        damping: 0.2,
+        density: 150.0,
+        ks: 5000.0,
+        enable_structural: true,
+        enable_shearing: true,
+        enable_bending: true,
+        material: material(),
+    }
+}
+
+fn floor() -> Plane {
+    Plane {
+        point: Vec3::zeros(),
+        normal: Vec3::new(0.0, 1.0, 0.0),
+        friction: 0.5,
+        material: Material { color: Vec3::new(0.7, 0.7, 0.7), ..material() },
+    }
+}
+
+fn ball() -> Sphere {
+    Sphere {
+        origin: Vec3::new(0.5, 0.2, 0.5),
+        radius: 0.2,
+        friction: 0.3,
+        resolution: [40, 40],
+        material: material(),
+    }
+}
+
+#[test]
+fn the_stock_scenes_have_exactly_their_values() {
+    let pinned = |pinned: &[[usize; 2]]| Some(Cloth { pinned: pinned.to_vec(), ..stock_cloth() });
+    assert_eq!(stock("pinned2"), Scene { cloth: pinned(&[[0, 0], [49, 0]]), ..empty() });
+    let corners = [[0, 0], [0, 49], [49, 0], [49, 49]];
+    assert_eq!(stock("pinned4"), Scene { cloth: pinned(&corners), ..empty() });
+    let horizontal = Some(stock_cloth());
+    assert_eq!(stock("sphere"), Scene { cloth: horizontal.clone(), spheres: vec![ball()], ..empty() });
+    assert_eq!(stock("plane"), Scene { cloth: horizontal, planes: vec![floor()], ..empty() });
+    let vertical = Some(Cloth { orientation: Orientation::Vertical, ..stock_cloth() });
+    assert_eq!(stock("selfCollision"), Scene { cloth: vertical, planes: vec![floor()], ..empty() });
+}
+
+#[test]
+fn the_stock_files_hold_only_keys_of_the_original_format() {
+    let keys =
+        |value: &serde_json::Value| -> Vec<String> { value.as_object().unwrap().keys().cloned().collect() };
+    for name in STOCK {
+        let text = fs::read_to_string(crate::repository::path(&format!("scenes/{name}.json"))).unwrap();
+        let scene: serde_json::Value = serde_json::from_str(&text).unwrap();
+        for (object, allowed) in [
+            (
+                "cloth",
+                "width height num_width_points num_height_points thickness orientation pinned damping density ks enable_structural enable_shearing enable_bending",
+            ),
+            ("sphere", "origin radius friction"),
+            ("plane", "point normal friction"),
+        ] {
+            let found = scene.get(object).map(keys).unwrap_or_default();
+            assert!(found.iter().all(|key| allowed.split(' ').any(|a| a == key)), "{name}: {found:?}");
+        }
+        assert!(
+            keys(&scene).iter().all(|key| ["cloth", "sphere", "plane"].contains(&key.as_str())),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn every_optional_key_is_read() {
+    let text = r#"{
+      "sim": {"fps": 30, "steps_per_frame": 5, "gravity": [1, 2, 3], "integrator": "verlet", "precision": "f64",
+              "start": "half_step", "damping": "per_second", "stretch_limit": null, "stretch_passes": 7,
+              "self_collision": "neighbors", "contact": "outside"},
+      "camera": {"target": [1, 2, 3], "distance": 4, "polar": 5, "azimuth": -6, "hfov": 7, "vfov": 8, "near": 9,
+                 "far": 10},
+      "light": {"position": [1, 2, 3], "intensity": [4, 5, 6], "color": [0, 0, 7]},
+      "material": {"shader": "custom", "color": [0.1, 0.2, 0.3], "ka": 1, "kd": 2, "ks": 3, "shininess": 4, "km": 5,
+                   "normal_scaling": -6, "height_scaling": -7, "texture": "a", "height_map": "b", "environment": "c"},
+      "sphere": [{"origin": [1, 2, 3], "radius": 4, "friction": 1, "resolution": [16, 8]}],
+      "plane": {"point": [1, 2, 3], "normal": [0, 0, -4], "friction": 0},
+      "render": {"size": [640, 480], "samples": 16, "background": [0, 1, 0], "time": 0, "filter": "nearest"}
+    }"#;
+    let v123 = Vec3::new(1.0, 2.0, 3.0);
+    let material = Material {
+        shader: Shader::Custom,
+        color: Vec3::new(0.1, 0.2, 0.3),
+        ka: 1.0,
+        kd: 2.0,
+        ks: 3.0,
+        shininess: 4.0,
+        km: 5.0,
+        normal_scaling: -6.0,
+        height_scaling: -7.0,
+        texture: "a".into(),
+        height_map: "b".into(),
+        environment: "c".into(),
+    };
+    let expected = Scene {
+        cloth: None,
+        sim: Sim {
+            fps: 30.0,
+            steps_per_frame: 5,
+            gravity: v123,
+            stretch_limit: None,
+            stretch_passes: 7,
+            start: Start::HalfStep,
+            damping: Damping::PerSecond,
+            self_collision: SelfCollision::Neighbors,
+            contact: Contact::Outside,
+            ..empty().sim
+        },
+        camera: Camera {
+            target: Some(v123),
+            distance: Some(4.0),
+            polar: 5.0,
+            azimuth: -6.0,
+            hfov: 7.0,
+            vfov: 8.0,
+            near: 9.0,
+            far: 10.0,
+        },
+        light: Light { position: v123, intensity: Vec3::new(4.0, 5.0, 6.0), color: Vec3::new(0.0, 0.0, 7.0) },
+        spheres: vec![Sphere {
+            origin: v123,
+            radius: 4.0,
+            friction: 1.0,
+            resolution: [16, 8],
+            material: material.clone(),
+        }],
+        planes: vec![Plane { point: v123, normal: Vec3::new(0.0, 0.0, -4.0), friction: 0.0, material }],
+        render: Render {
+            size: [640, 480],
+            samples: 16,
+            background: Vec3::new(0.0, 1.0, 0.0),
+            time: 0.0,
+            filter: Filter::Nearest,
+        },
+    };
+    assert_eq!(with(text, &[]), expected);
+}
+
+#[test]
+fn materials_are_inherited_key_by_key() {
+    let text = fs::read_to_string(crate::repository::path("scenes/plane.json")).unwrap();
+    let sets = ["material.shader=bump", "material.ka=0.5", "cloth.material.ka=0.25", "plane.material.kd=0"];
+    let scene = with(&text, &sets);
+    let common = Material { shader: Shader::Bump, ka: 0.5, ..material() };
+    assert_eq!(scene.cloth.unwrap().material, Material { ka: 0.25, ..common.clone() });
+    let grey = Vec3::new(0.7, 0.7, 0.7);
+    assert_eq!(scene.planes[0].material, Material { kd: 0.0, color: grey, ..common });
+
+    let red = Vec3::new(1.0, 0.0, 0.0);
+    let scene = with(&text, &["material.color=[1,0,0]"]);
+    assert_eq!(scene.planes[0].material.color, red, "a colour for all objects is also the plane's");
+    let scene = with(&text, &["plane.material.color=[1,0,0]"]);
+    assert_eq!(scene.planes[0].material.color, red);
+    assert_eq!(scene.cloth.unwrap().material.color, Vec3::new(1.0, 1.0, 1.0));
+}
+
+#[test]
+fn numbers_are_the_nearest_binary64() {
+    // Bits from an independent correctly rounding reader.
+    let cases = [
+        ("0.0095", 0x3f83_74bc_6a7e_f9db),
+        ("0.1", 0x3fb9_9999_9999_999a),
+        ("1.00000000000000011102230246251565404236316680908203125", 0x3ff0_0000_0000_0000),
+        ("1.00000000000000011102230246251565404236316680908203126", 0x3ff0_0000_0000_0001),
+        ("123456.7890123456789012345678901234567890", 0x40fe_240c_9fcb_68cd),
+        ("2.2250738585072011e-308", 0x000f_ffff_ffff_ffff),
+        ("5e-324", 1),
+        ("1e-999", 0),
+        ("-0", 0x8000_0000_0000_0000),
+        ("6.02214076e14", 0x4301_1daf_20a1_3800),
+        ("300e-2", 0x4008_0000_0000_0000),
+        ("720575940379279.36", 0x4304_7ae1_47ae_147b),
+    ];
+    for (text, bits) in cases {
+        let scene = with(&format!("{{\"sim\": {{\"gravity\": [0, {text}, 0]}}}}"), &[]);
+        assert_eq!(scene.sim.gravity.y.to_bits(), bits, "{text}: {:#x}", scene.sim.gravity.y.to_bits());
+        let set = with("{}", &[&format!("sim.gravity=[0,{text},0]")]);
+        assert_eq!(set.sim.gravity.y.to_bits(), bits, "--set {text}");
+    }
+}
+
+#[test]
+fn whole_numbers_may_be_written_with_a_point_or_an_exponent() {
+    let text = fs::read_to_string(crate::repository::path("scenes/pinned2.json")).unwrap();
+    let sets = [
+        "cloth.num_width_points=50.0",
+        "cloth.orientation=1.0",
+        "cloth.pinned=[[-0,4.9e1]]",
+        "render.samples=40e-1",
+    ];
+    let scene = with(&text, &sets);
+    let cloth = scene.cloth.unwrap();
+    assert_eq!((cloth.num_width_points, cloth.orientation), (50, Orientation::Vertical));
+    assert_eq!((cloth.pinned, scene.render.samples), (vec![[0, 49]], 4));
+}
+
+#[test]
+fn patches_come_first_then_sets_each_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let patch = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let patches = vec![
+        patch("a.json", r#"{"cloth": {"ks": 1, "density": 1, "damping": 1, "pinned": null}, "plane": null}"#),
+        patch("b.json", r#"{"cloth": {"density": 2, "damping": 2}, "camera": {"polar": 60}}"#),
+    ];
+    let sets = vec!["cloth.damping=3".into(), "cloth.damping=4".into(), "sim.stretch_limit=null".into()];
+    let scene =
+        load(&crate::repository::path("scenes/plane.json"), &Overrides { patches, sets }).unwrap().scene;
+    let cloth = Cloth { ks: 1.0, density: 2.0, damping: 4.0, ..stock_cloth() };
+    let sim = Sim { stretch_limit: None, ..empty().sim };
+    let camera = Camera { polar: 60.0, ..empty().camera };
+    assert_eq!(scene, Scene { cloth: Some(cloth), sim, camera, ..empty() });
+}
+
+#[test]
+fn sets_reach_one_object_and_lists_of_objects() {
+    let one = fs::read_to_string(crate::repository::path("scenes/sphere.json")).unwrap();
+    let other = r#"{"origin": [0, 0, 0], "radius": 1, "friction": 0}"#;
+    let list = format!("{{\"sphere\": [{other}]}}");
+    let two = format!("{{\"sphere\": [{other}, {other}]}}");
+    let radii = |text: &str, set: &str| -> Vec<f64> {
+        with(text, &[set]).spheres.iter().map(|sphere| sphere.radius).collect()
+    };
+    assert_eq!(radii(&one, "sphere.radius=3"), [3.0]);
+    assert_eq!(radii(&one, "sphere.0.radius=3"), [3.0]);
+    assert_eq!(radii(&list, "sphere.radius=3"), [3.0]);
+    assert_eq!(radii(&list, "sphere.0.radius=3"), [3.0]);
+    assert_eq!(radii(&two, "sphere.1.radius=3"), [1.0, 3.0]);
+    assert_eq!(radii(&two, "sphere.0.origin.1=3"), [1.0, 1.0]);
+    assert_eq!(radii(&two, "sphere=[]"), [0.0; 0]);
+}

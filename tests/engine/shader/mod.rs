@@ -1,0 +1,6 @@
+//! The programs against their GLSL and their formulas.
+
+mod glsl;
+mod height_maps;
+mod sampling;
+mod shading;

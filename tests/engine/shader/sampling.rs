@@ -1,0 +1,229 @@
+//! Texture lookups are the formulas' values: nearest and bilinear, REPEAT on pictures, GL's face
+//! table and CLAMP_TO_EDGE on cube maps.
+
+#![expect(clippy::cast_possible_truncation, reason = "texel indices and colours are small")]
+
+use crate::support::{
+    cases,
+    shaders::{cube, noise},
+};
+use drape::{
+    cubemap::Cubemap,
+    lanes::Lane,
+    math::splitmix64,
+    scene::Filter,
+    shader::{
+        glsl::{Vec3, vec3},
+        sampler::{Sampler2d, SamplerCube, texture, texture_cube},
+    },
+    texture::Texture,
+};
+use proptest::prelude::*;
+
+fn lanes<L: Lane>(color: Vec3<L>) -> [f64; 3] {
+    [color.x, color.y, color.z].map(|channel| channel.lane(0))
+}
+
+/// The bilinear formula in f64, with texel indices mapped by `index(i, size)`.
+fn bilinear(picture: &Texture, u: f64, v: f64, index: impl Fn(i64, i64) -> i64) -> [f64; 3] {
+    let (w, h) = (picture.width() as i64, picture.height() as i64);
+    let (x, y) = (u * w as f64 - 0.5, v * h as f64 - 0.5);
+    let (i, j) = (x.floor(), y.floor());
+    let (fx, fy) = (x - i, y - j);
+    let texel = |di: i64, dj: i64, c: usize| {
+        f64::from(picture.texel(index(i as i64 + di, w) as usize, index(j as i64 + dj, h) as usize)[c])
+    };
+    std::array::from_fn(|c| {
+        (texel(0, 0, c) * (1.0 - fx) + texel(1, 0, c) * fx) * (1.0 - fy)
+            + (texel(0, 1, c) * (1.0 - fx) + texel(1, 1, c) * fx) * fy
+    })
+}
+
+fn repeat(i: i64, n: i64) -> i64 {
+    ((i % n) + n) % n
+}
+
+fn clamp_to_edge(i: i64, n: i64) -> i64 {
+    i.max(0).min(n - 1)
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).fold(0.0, |largest, i| (a[i] - b[i]).abs().max(largest))
+}
+
+/// 2⁻²²
+const ROUNDING: f64 = 1.0 / 4_194_304.0;
+
+/// Random, whole and half texels, in -1..=2.
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![-1.0..=2.0_f32, (-64..=128_i16).prop_map(|c| f32::from(c) / 64.0), -0.01..0.01_f32]
+}
+
+fn any_side() -> impl Strategy<Value = usize> {
+    prop_oneof![1..=1024_usize, 1..=5_usize]
+}
+
+fn power_of_two() -> impl Strategy<Value = usize> {
+    (0..=10_u32).prop_map(|bits| 1 << bits)
+}
+
+proptest! {
+    #![proptest_config(cases(60))]
+
+    /// The weights' error is that of u·w rounded to f32.
+    #[test]
+    fn bilinear_is_within_its_bound(
+        size in (any_side(), any_side()),
+        at in prop::collection::vec((coordinate(), coordinate()), 500),
+        seed in any::<u64>(),
+    ) {
+        let picture = noise(size.0, size.1, seed);
+        let sampler = Sampler2d { texture: &picture, filter: Filter::Bilinear };
+        let bound = (size.0 + size.1 + 2) as f64 * ROUNDING;
+        for (u, v) in at {
+            let expected = bilinear(&picture, u.into(), v.into(), repeat);
+            let error = distance(lanes(texture(sampler, u, v)), expected);
+            prop_assert!(error <= bound, "{} over {} at {}, {}", error, bound, u, v);
+            let error = distance(lanes(texture(sampler, f64::from(u), f64::from(v))), expected);
+            prop_assert!(error <= 1e-12, "{} in f64", error);
+        }
+    }
+
+    /// From 0 on u·w - 0.5 is exact, and only the mixing rounds; nearest is exact everywhere.
+    #[test]
+    fn sides_of_powers_of_two_have_exact_weights(
+        size in (power_of_two(), power_of_two()),
+        at in prop::collection::vec((coordinate(), coordinate()), 500),
+        seed in any::<u64>(),
+    ) {
+        let picture = noise(size.0, size.1, seed);
+        let [smooth, nearest] =
+            [Filter::Bilinear, Filter::Nearest].map(|filter| Sampler2d { texture: &picture, filter });
+        for (u, v) in at {
+            let (s, t) = (u.abs(), v.abs());
+            let expected = bilinear(&picture, s.into(), t.into(), repeat);
+            let error = distance(lanes(texture(smooth, s, t)), expected);
+            prop_assert!(error <= 2.0 * ROUNDING, "{} at {}, {}", error, s, t);
+            let index = |c: f32, n: usize| repeat((f64::from(c) * n as f64).floor() as i64, n as i64) as usize;
+            let [r, g, b, _] = picture.texel(index(u, size.0), index(v, size.1)).map(f64::from);
+            prop_assert_eq!(lanes(texture(nearest, u, v)), [r, g, b]);
+        }
+    }
+}
+
+#[test]
+fn the_first_row_is_at_v_0_and_both_axes_repeat() {
+    let [a, b, c, d, e, f] =
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5; 3], [0.0; 3], [1.0; 3]];
+    let picture = Texture::from_rgb(3, 2, &[a, b, c, d, e, f]).unwrap();
+    let sampler = Sampler2d { texture: &picture, filter: Filter::Nearest };
+    let at = |u: f32, v: f32| lanes(texture(sampler, u, v)).map(|channel| channel as f32);
+    assert_eq!([at(0.1, 0.2), at(0.5, 0.2), at(0.9, 0.2)], [a, b, c]);
+    assert_eq!([at(0.1, 0.8), at(0.5, 0.8), at(0.9, 0.8)], [d, e, f]);
+    assert_eq!([at(-0.1, 0.2), at(1.1, 0.2), at(-0.9, -0.8), at(0.5, -0.1)], [c, a, a, e]);
+    assert_eq!([at(f32::NAN, f32::NAN), at(0.0, 0.0), at(1.0, 1.0)], [a, a, a]);
+}
+
+/// Face and (s, t) of a direction by the table of the GL specification; ties z before y before x.
+fn face([x, y, z]: [f64; 3]) -> (usize, f64, f64) {
+    let longest = x.abs().max(y.abs()).max(z.abs());
+    let (face, sc, tc) = if z.abs() == longest {
+        if z > 0.0 { (4, x, -y) } else { (5, -x, -y) }
+    } else if y.abs() == longest {
+        if y > 0.0 { (2, x, z) } else { (3, x, -z) }
+    } else if x > 0.0 {
+        (0, -z, -y)
+    } else {
+        (1, z, -y)
+    };
+    (face, (sc / longest + 1.0) / 2.0, (tc / longest + 1.0) / 2.0)
+}
+
+fn look(cubemap: &Cubemap, filter: Filter, [x, y, z]: [f32; 3]) -> [f64; 3] {
+    lanes(texture_cube(SamplerCube { cubemap, filter }, vec3(x, y, z)))
+}
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    #[test]
+    fn cube_lookups_are_within_their_bound(
+        size in 1..=256_usize,
+        directions in prop::collection::vec(prop::array::uniform3(prop_oneof![-1.0..=1.0_f32, (-2..=2_i8).prop_map(f32::from)]), 500),
+        seed in any::<u64>(),
+    ) {
+        let map = cube(|i| noise(size, size, seed ^ i as u64));
+        // The coordinate has three roundings more than that of a picture.
+        let bound = (4 * size + 2) as f64 * ROUNDING;
+        for direction in directions.into_iter().filter(|direction| *direction != [0.0; 3]) {
+            let (face, s, t) = face(direction.map(f64::from));
+            let expected = bilinear(&map.faces()[face], s, t, clamp_to_edge);
+            let error = distance(look(&map, Filter::Bilinear, direction), expected);
+            prop_assert!(error <= bound, "{} over {} at {:?}", error, bound, direction);
+        }
+    }
+}
+
+/// All 26 directions of the cube's faces, edges and corners.
+#[test]
+fn ties_go_to_z_before_y_before_x() {
+    let flat = |i: usize| Texture::from_rgb(1, 1, &[[i as f32, 0.0, 0.0]]).unwrap();
+    let map = cube(flat);
+    for code in (0..27).filter(|&code| code != 13) {
+        let direction = [code % 3, code / 3 % 3, code / 9].map(|c| c as f32 - 1.0);
+        let expected = match direction {
+            [_, _, 1.0] => 4,
+            [_, _, -1.0] => 5,
+            [_, 1.0, _] => 2,
+            [_, -1.0, _] => 3,
+            [1.0, ..] => 0,
+            _ => 1,
+        };
+        for filter in [Filter::Nearest, Filter::Bilinear] {
+            assert_eq!(look(&map, filter, direction)[0], f64::from(expected), "{direction:?}");
+        }
+    }
+}
+
+/// A map painted with the directions of its texels, by the table's inverse, shows the direction of
+/// every lookup: no face is swapped or turned, and across the twelve edges nothing jumps.
+#[test]
+fn every_direction_finds_itself() {
+    let size = 64;
+    let direction = |face: usize, s: f64, t: f64| match face {
+        0 => [1.0, -t, -s],
+        1 => [-1.0, -t, s],
+        2 => [s, 1.0, t],
+        3 => [s, -1.0, -t],
+        4 => [s, -t, 1.0],
+        _ => [-s, -t, -1.0],
+    };
+    let map = cube(|face| {
+        let texels: Vec<[f32; 3]> = (0..size * size)
+            .map(|i| {
+                let [s, t] = [i % size, i / size].map(|k| (k as f64 + 0.5) / (size as f64 / 2.0) - 1.0);
+                direction(face, s, t).map(|c| c as f32)
+            })
+            .collect();
+        Texture::from_rgb(size, size, &texels).unwrap()
+    });
+    for i in 0..20_000 {
+        let [x, y, z] = [0, 1, 2].map(|k| (splitmix64(3 * i + k) >> 40) as f32 / 8_388_608.0 - 1.0);
+        let longest = f64::from(x.abs().max(y.abs()).max(z.abs()));
+        let expected = [x, y, z].map(|c| f64::from(c) / longest);
+        // Within half a texel of an edge the lookup clamps to the face.
+        let error = distance(look(&map, Filter::Bilinear, [x, y, z]), expected);
+        assert!(error <= 1.001 / size as f64, "{error} at {expected:?}");
+    }
+}
+
+#[test]
+fn no_direction_at_all_reads_the_middle_of_the_first_face() {
+    let map = cube(|i| noise(8, 8, i as u64));
+    for filter in [Filter::Nearest, Filter::Bilinear] {
+        let middle = lanes(texture(Sampler2d { texture: &map.faces()[0], filter }, 0.5_f32, 0.5_f32));
+        for bad in [[0.0; 3], [-0.0; 3], [f32::NAN; 3], [1.0, f32::NAN, 0.0], [f32::NAN, 0.0, 1.0]] {
+            assert_eq!(look(&map, filter, bad), middle, "{bad:?}");
+        }
+    }
+}
