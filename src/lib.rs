@@ -34,11 +34,11 @@
 //!
 //! | step | module |
 //! |---|---|
+//! | vector instructions and the numbers of the fragment stage | [`lanes`] |
 //! | scene file → validated scene → plan of what it needs | [`scene`] |
 //! | grid, springs, forces, collisions, stretch limit | [`cloth`] |
 //! | one step, one frame | [`simulation`] |
 //! | pictures that materials read | [`texture`], [`cubemap`], [`texture_source`] |
-//! | one number or eight side by side | [`lanes`] |
 //! | triangles with attributes | [`mesh`] |
 //! | orbit camera | [`camera`] |
 //! | vertex and fragment programs, beside their GLSL | [`shader`] |
@@ -53,6 +53,7 @@
 
 pub mod error;
 pub mod math;
+pub mod lanes;
 pub mod scene;
 mod dispatch;
 pub mod cloth;
@@ -60,7 +61,6 @@ pub mod simulation;
 pub mod texture;
 pub mod cubemap;
 pub mod texture_source;
-pub mod lanes;
 pub mod mesh;
 pub mod camera;
 pub mod shader;
