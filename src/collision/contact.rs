@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::cloth::grid::Pins;
 use crate::cloth::{Counters, Points, pieces};
-use crate::dispatch::{Work, dispatch};
+use crate::lanes::level::dispatch_plain;
 use crate::scene::Vec3;
 
 /// Points that are asked at once.
@@ -44,11 +44,8 @@ pub(super) trait Shape: Sync {
     /// Resolves the contacts of every unpinned point.
     fn resolve_points(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
         let pieces = x.cut_mut().zip(last.cut()).zip(pieces::cut(&pins.pinned));
-        let moves = pieces.map(|((x, last), pinned)| {
-            let mut moves = 0;
-            dispatch(Contacts { x, last, pinned, shape: self, moves: &mut moves });
-            moves
-        });
+        let pieces = pieces.map(|((x, last), pinned)| Piece { x, last, pinned });
+        let moves = pieces.map(|mut piece| dispatch_plain!(piece.resolve(self)));
         counters.object_moves += moves.sum::<u64>();
         counters.object_tests += pins.free_points();
     }
@@ -64,50 +61,50 @@ pub(super) trait Shape: Sync {
     }
 }
 
-/// The contacts of one piece of the points with one object.
-struct Contacts<'a, S: ?Sized> {
+/// A piece of the points of a cloth.
+struct Piece<'a> {
     x: [&'a mut [f64]; 3],
     last: [&'a [f64]; 3],
     pinned: &'a [bool],
-    shape: &'a S,
-    moves: &'a mut u64,
 }
 
-impl<S: Shape + ?Sized> Work for Contacts<'_, S> {
+impl Piece<'_> {
+    /// Resolves the contacts of the points with `shape`; how many moved.
     #[inline(always)]
-    fn run(mut self) {
+    fn resolve(&mut self, shape: &(impl Shape + ?Sized)) -> u64 {
+        let mut moves = 0;
         for start in (0..self.pinned.len()).step_by(BLOCK) {
             let block = start..(start + BLOCK).min(self.pinned.len());
-            if self.any_hit(block.clone()) {
-                block.for_each(|p| self.resolve_point(p));
+            if self.any_hit(shape, block.clone()) {
+                block.for_each(|p| moves += u64::from(self.resolve_point(shape, p)));
             }
         }
+        moves
     }
-}
 
-impl<S: Shape + ?Sized> Contacts<'_, S> {
-    /// Whether one of the points `block` hit the object.
+    /// Whether one of the points `block` hit `shape`.
     #[inline(always)]
-    fn any_hit(&self, block: Range<usize>) -> bool {
+    fn any_hit(&self, shape: &(impl Shape + ?Sized), block: Range<usize>) -> bool {
         let n = block.len();
         let [x, y, z] = self.x.each_ref().map(|x| &x[block.clone()][..n]);
         let [last_x, last_y, last_z] = self.last.map(|last| &last[block.clone()][..n]);
         let mut any = false;
         for i in 0..n {
             let (x, last) = (Vec3::new(x[i], y[i], z[i]), Vec3::new(last_x[i], last_y[i], last_z[i]));
-            any |= self.shape.hit(x, last);
+            any |= shape.hit(x, last);
         }
         any
     }
 
-    /// Resolves the contact of point `p`, if it is free and hit the object.
-    fn resolve_point(&mut self, p: usize) {
+    /// Resolves the contact of point `p`, if it is free and hit `shape`; whether it was.
+    fn resolve_point(&mut self, shape: &(impl Shape + ?Sized), p: usize) -> bool {
         let x = Vec3::from(self.x.each_ref().map(|x| x[p]));
         let last = Vec3::from(self.last.map(|last| last[p]));
-        if !self.pinned[p] && self.shape.hit(x, last) {
-            let point = self.shape.resolve(x, last);
+        let resolves = !self.pinned[p] && shape.hit(x, last);
+        if resolves {
+            let point = shape.resolve(x, last);
             self.x.iter_mut().zip(&point).for_each(|(x, &to)| x[p] = to);
-            *self.moves += 1;
         }
+        resolves
     }
 }

@@ -12,8 +12,8 @@ use super::separation::Separation;
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::{Grid, Pins};
 use crate::cloth::{Counters, Points, filled, pieces};
-use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
+use crate::lanes::level::dispatch_plain;
 use crate::scene::{Cloth, Sim};
 
 /// Most cells of a piece of a large cloth: about a thousand points.
@@ -117,16 +117,35 @@ struct Cells<'a> {
 }
 
 impl Cells<'_> {
-    /// Works on all cells, in parts of at most `most`.
+    /// Works on all cells, in parts of at most `most` on several threads.
     fn run_in_parts(self, most: usize) -> Tally {
         if self.range.len() <= most {
-            let mut tally = Tally::default();
-            dispatch(EachCell { cells: self, tally: &mut tally });
-            return tally;
+            return dispatch_plain!(self.run());
         }
         let [a, b] = self.halves();
         let (a, b) = rayon::join(|| a.run_in_parts(most), || b.run_in_parts(most));
         a + b
+    }
+
+    /// Works on all cells, one after the other.
+    #[inline(always)]
+    fn run(self) -> Tally {
+        let Self { inputs, range, first_slot, mut positions, moved } = self;
+        let mut tally = Tally::default();
+        let mut next = 0;
+        for (index, moved) in range.zip(moved) {
+            let members = inputs.grid.members(index);
+            let slots = next..next + members.len() + PADDING;
+            let positions = positions.each_mut().map(|component| &mut component[slots.clone()]);
+            let mut cell = Cell::load(members, inputs.rule, inputs.x, positions);
+            let moves = if cell.any_close() { cell.separate(&inputs.pins.pinned) } else { 0 };
+            *moved = (moves > 0).then_some(first_slot + next);
+            // A cell that stays as it is leaves its slots, which are in the cache, to the next.
+            next = if moves > 0 { slots.end } else { next };
+            tally.moves += moves;
+            tally.pairs += (members.len() * (members.len() - 1) / 2) as u64;
+        }
+        tally
     }
 
     /// The first half of the cells, and the second.
@@ -141,31 +160,5 @@ impl Cells<'_> {
             Cells { inputs, range: start..middle, first_slot, positions: a, moved: moved.0 },
             Cells { inputs, range: middle..end, first_slot: slot, positions: b, moved: moved.1 },
         ]
-    }
-}
-
-/// The phase for consecutive cells.
-struct EachCell<'a> {
-    cells: Cells<'a>,
-    tally: &'a mut Tally,
-}
-
-impl Work for EachCell<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let Self { cells: Cells { inputs, range, first_slot, mut positions, moved }, tally } = self;
-        let mut next = 0;
-        for (index, moved) in range.zip(moved) {
-            let members = inputs.grid.members(index);
-            let slots = next..next + members.len() + PADDING;
-            let positions = positions.each_mut().map(|component| &mut component[slots.clone()]);
-            let mut cell = Cell::load(members, inputs.rule, inputs.x, positions);
-            let moves = if cell.any_close() { cell.separate(&inputs.pins.pinned) } else { 0 };
-            *moved = (moves > 0).then_some(first_slot + next);
-            // A cell that stays as it is leaves its slots, which are in the cache, to the next.
-            next = if moves > 0 { slots.end } else { next };
-            tally.moves += moves;
-            tally.pairs += (members.len() * (members.len() - 1) / 2) as u64;
-        }
     }
 }

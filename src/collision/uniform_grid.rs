@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::axis::Axis;
 use super::cell_list::{CellKey, CellList};
 use crate::cloth::{Points, filled, pieces};
-use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
+use crate::lanes::level::dispatch_plain;
 
 /// Points whose bounds are compared at once.
 const BLOCK: usize = 8;
@@ -122,7 +122,7 @@ impl UniformGrid {
         let axes = &self.axes;
         let pieces = self.dirty.par_chunks_mut(pieces::POINTS / BLOCK);
         pieces.with_min_len(pieces::at_once(x.len())).enumerate().for_each(|(piece, dirty)| {
-            dispatch(FindDirty { axes, x, first: piece * (pieces::POINTS / BLOCK), dirty });
+            dispatch_plain!(find_dirty(axes, x, piece * (pieces::POINTS / BLOCK), dirty));
         });
     }
 
@@ -168,20 +168,11 @@ fn any_may_leave(axes: &[Axis; 3], x: &Points, points: Range<usize>) -> bool {
     may_leave(ax, &x.x) | may_leave(ay, &x.y) | may_leave(az, &x.z)
 }
 
-/// The search for points that may have left their cells, from block `first` on.
-struct FindDirty<'a> {
-    axes: &'a [Axis; 3],
-    x: &'a Points,
-    first: usize,
-    dirty: &'a mut [bool],
-}
-
-impl Work for FindDirty<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for (block, dirty) in (self.first..).zip(self.dirty) {
-            *dirty = any_may_leave(self.axes, self.x, block_of(block, self.x.len()));
-        }
+/// Finds the blocks from `first` on in which a point at `x` may have left its cell.
+#[inline(always)]
+fn find_dirty(axes: &[Axis; 3], x: &Points, first: usize, dirty: &mut [bool]) {
+    for (block, dirty) in (first..).zip(dirty) {
+        *dirty = any_may_leave(axes, x, block_of(block, x.len()));
     }
 }
 
