@@ -2,6 +2,7 @@
 //! whether such a difference explains another program's positions.
 
 use super::Simulation;
+use super::state::PairSearch;
 use crate::cloth::springs::SpringKind;
 
 impl Simulation {
@@ -19,7 +20,7 @@ impl Simulation {
     /// Makes boxes of self-collision one if `hash` of their three numbers is the same.
     pub fn set_box_hash(&mut self, hash: fn([i64; 3]) -> i64) {
         if let Some(cloth) = &mut self.cloth
-            && let Some(collision) = &mut cloth.self_collision
+            && let Some(PairSearch::SameBox(collision)) = &mut cloth.self_collision
         {
             collision.boxes.tell_apart_by(hash, &cloth.x);
         }
