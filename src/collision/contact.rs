@@ -15,7 +15,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::cloth::grid::Pins;
-use crate::cloth::{Counters, Points, pieces};
+use crate::cloth::{Counters, Points, chunks};
 use crate::lanes::level::dispatch_plain;
 use crate::scene::Vec3;
 
@@ -23,7 +23,7 @@ use crate::scene::Vec3;
 const BLOCK: usize = 8;
 
 /// What an object is to points that collide with it.
-pub(super) trait Shape: Sync {
+pub(crate) trait Shape: Sync {
     /// Whether a point that moved from `last` to `x` hit the object.
     fn hit(&self, x: Vec3, last: Vec3) -> bool;
 
@@ -43,9 +43,9 @@ pub(super) trait Shape: Sync {
 
     /// Resolves the contacts of every unpinned point.
     fn resolve_points(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
-        let pieces = x.cut_mut().zip(last.cut()).zip(pieces::cut(&pins.pinned));
-        let pieces = pieces.map(|((x, last), pinned)| Piece { x, last, pinned });
-        let moves = pieces.map(|mut piece| dispatch_plain!(piece.resolve(self)));
+        let chunks = x.cut_mut().zip(last.cut()).zip(chunks::cut(&pins.pinned));
+        let chunks = chunks.map(|((x, last), pinned)| Chunk { x, last, pinned });
+        let moves = chunks.map(|mut chunk| dispatch_plain!(chunk.resolve(self)));
         counters.object_moves += moves.sum::<u64>();
         counters.object_tests += pins.free_points();
     }
@@ -61,14 +61,14 @@ pub(super) trait Shape: Sync {
     }
 }
 
-/// A piece of the points of a cloth.
-struct Piece<'a> {
+/// A chunk of the points of a cloth.
+struct Chunk<'a> {
     x: [&'a mut [f64]; 3],
     last: [&'a [f64]; 3],
     pinned: &'a [bool],
 }
 
-impl Piece<'_> {
+impl Chunk<'_> {
     /// Resolves the contacts of the points with `shape`; how many moved.
     #[inline(always)]
     fn resolve(&mut self, shape: &(impl Shape + ?Sized)) -> u64 {

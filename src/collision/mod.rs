@@ -4,13 +4,13 @@
 //! over one list of them, [`Colliders`]. A collider is added as a variant here, a file beside
 //! `sphere.rs` that says what [`contact::Shape`] asks, and a row of the scene's list.
 
-use contact::Shape;
+pub(crate) use contact::Shape;
 use plane::Plane;
 
 use crate::cloth::grid::Pins;
 use crate::cloth::{Counters, Points};
 use crate::error::Result;
-use crate::scene::{Contact, Scene, Sphere, Vec3};
+use crate::scene::{Contact, Scene, Sphere};
 
 mod axis;
 mod cell;
@@ -107,15 +107,14 @@ impl Colliders {
         self.of(kind).for_each(|shape| shape.depenetrate_points(x, pins, counters));
     }
 
-    /// The farthest that one of the objects puts a point beyond its surface, in metres.
-    pub(crate) fn lift(&self) -> f64 {
-        self.list.iter().map(|(_, collider)| collider.shape().lift()).fold(0.0, f64::max)
+    /// What each object is to points.
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = &dyn Shape> {
+        self.list.iter().map(|(_, collider)| collider.shape())
     }
 
-    /// For each object, how far one step moves a point that starts inside it at the place given, in
-    /// metres.
-    pub(crate) fn depths(&self) -> impl Iterator<Item = impl Fn(Vec3) -> f64> {
-        self.list.iter().map(|(_, collider)| move |x| collider.shape().depth(x))
+    /// The farthest that one of the objects puts a point beyond its surface, in metres.
+    pub(crate) fn largest_lift(&self) -> f64 {
+        self.shapes().map(Shape::lift).fold(0.0, f64::max)
     }
 
     /// Puts points that hit a plane so many metres above it, on the side from which they came.
@@ -135,6 +134,7 @@ impl Colliders {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Vec3;
 
     #[test]
     fn points_leave_on_their_own_side_and_others_stay() {

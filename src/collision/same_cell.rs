@@ -11,12 +11,12 @@ use super::cell::{Cell, PADDING};
 use super::separation::Separation;
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::{Grid, Pins};
-use crate::cloth::{Counters, Points, filled, pieces};
+use crate::cloth::{Counters, Points, chunks, filled};
 use crate::error::Result;
 use crate::lanes::level::dispatch_plain;
 use crate::scene::{Cloth, Sim};
 
-/// Most cells of a piece of a large cloth: about a thousand points.
+/// Most cells of a chunk of a large cloth: about a thousand points.
 const CELLS: usize = 128;
 
 /// Just above 1: see [`Separation::new`].
@@ -57,7 +57,7 @@ impl SameCell {
         self.grid.update(x);
         let Self { rule, grid, positions, moved } = self;
         let range = 0..grid.shared_cells();
-        let most = if x.len() < pieces::MANY { range.len() } else { CELLS };
+        let most = if x.len() < chunks::MANY { range.len() } else { CELLS };
         let inputs = Inputs { rule: *rule, grid, x, pins };
         let whole = Cells { inputs, range, first_slot: 0, positions: positions.components_mut(), moved };
         let Tally { pairs, moves } = whole.run_in_parts(most);

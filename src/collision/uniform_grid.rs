@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::axis::Axis;
 use super::cell_list::{CellKey, CellList};
-use crate::cloth::{Points, filled, pieces};
+use crate::cloth::{Points, chunks, filled};
 use crate::error::Result;
 use crate::lanes::level::dispatch_plain;
 
@@ -120,9 +120,9 @@ impl UniformGrid {
     /// Finds the blocks in which a point at `x` may have left its cell.
     fn find_dirty(&mut self, x: &Points) {
         let axes = &self.axes;
-        let pieces = self.dirty.par_chunks_mut(pieces::POINTS / BLOCK);
-        pieces.with_min_len(pieces::at_once(x.len())).enumerate().for_each(|(piece, dirty)| {
-            dispatch_plain!(find_dirty(axes, x, piece * (pieces::POINTS / BLOCK), dirty));
+        let chunks = self.dirty.par_chunks_mut(chunks::POINTS / BLOCK);
+        chunks.with_min_len(chunks::at_once(x.len())).enumerate().for_each(|(chunk, dirty)| {
+            dispatch_plain!(find_dirty(axes, x, chunk * (chunks::POINTS / BLOCK), dirty));
         });
     }
 

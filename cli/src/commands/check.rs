@@ -10,7 +10,7 @@ use crate::args::scene::Changes;
 use crate::run::advance::certain;
 use crate::session::Session;
 use crate::session::ui::paint;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
 use drape::scene::{self, Integrator, Material, Plan, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};

@@ -6,8 +6,8 @@ use crate::args::scene::{SceneArgs, frame_at};
 use crate::run::advance::largest_ks;
 use crate::run::counts;
 use crate::session::Session;
-use drape::cloth::Constants;
-use drape::cloth::stability::Stability;
+use drape::cloth::Params;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Integrator, Item, Plan, Scene};
 
@@ -125,7 +125,7 @@ impl ClothInfo {
         let [structural, shearing, bending] = counts::springs(cloth);
         let explicit = scene.sim.integrator == Integrator::Verlet;
         let stability = explicit.then(|| Stability::new(cloth, &scene.sim)).transpose()?;
-        let Constants { mass, dt, .. } = Constants::new(cloth, &scene.sim);
+        let Params { mass, dt, .. } = Params::new(cloth, &scene.sim);
         Ok(Self {
             points: [cloth.num_width_points, cloth.num_height_points],
             structural,

@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use crate::session::Session;
 use crate::session::progress::Progress;
-use drape::cloth::rest::{Motion, RestWatch};
-use drape::cloth::stability::Stability;
 use drape::cloth::{Counters, Points};
+use drape::diagnostics::rest::{Motion, RestWatch};
+use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Scene};
 use drape::simulation::{Simulation, Unresolved};

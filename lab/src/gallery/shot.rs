@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::ledger::Ledger;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
 use drape::render::{Options, Picture, Renderer};

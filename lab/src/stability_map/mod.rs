@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use self::outcome::Run;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Scene};
 

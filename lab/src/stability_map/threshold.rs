@@ -7,7 +7,7 @@
 
 use super::outcome::run;
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::math::splitmix64;
 use drape::scene::{Cloth, Integrator, Scene, SelfCollision};

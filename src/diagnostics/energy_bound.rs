@@ -1,43 +1,44 @@
-//! Whether a cloth in motion still does what its springs could do.
+//! The energy bound: the most energy that a cloth can have if only its forces move it.
 //!
 //! Springs, gravity and damping never add energy, and the energy of springs is never negative. So
-//! `kinetic + gravitational <= total at the start` but for what is named here, and a run that
-//! breaks it was not moved by forces. It costs a pass over the points once a frame. Integrators
-//! beside Verlet's scheme may gain energy and keep it in the springs, so for them these count too:
-//! with one pass a step xpbd gave 2.5e5 J to the springs of a cloth that fell. The stretch
-//! limit hides a blow-up from every other check: it keeps strains at 10 % and all numbers finite.
+//! `kinetic + gravitational <= total at the start`, up to the allowances below, and a run that exceeds this was not
+//! moved by forces. The check takes a pass over the points once a frame. Integrators other than Verlet's scheme
+//! may gain energy and keep it in the springs, so for them the energy of the springs counts too: with
+//! one pass a step xpbd gave 2.5e5 J to the springs of a cloth that fell. The stretch limit hides a
+//! blow-up from every other check: it keeps strains at 10 % and all numbers finite.
 //!
-//! What is allowed on top, with M the mass of the cloth and g the size of gravity:
-//! - the error of the finite step: as much again as the motion and the springs held at the
+//! The allowances, with M the mass of the cloth and g the size of gravity:
+//! - the error of the finite step: once more the energy of motion and of the springs at the
 //!   start, `M g L / 2` for a cloth with sides of at most L, and `M (g dt)²`;
 //! - self-collision pushes points at the distance l apart by `(2 thickness - l) / T` in a step. One
-//!   push gives at most the speed `2 thickness fps`: `M (2 thickness fps)² / 2`, and the springs that
+//!   push gives at most the speed `2 thickness fps`: `M (2 thickness fps)² / 2`, and the energy of the springs that
 //!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
 //!   points together; but where neighbours start too close, nothing did: for each such point
 //!   `m (2 thickness - l)² / (2 T dt²)`;
-//! - a plane puts a point a little above it: `M (lift / dt)² / 2`;
-//! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
+//! - an object that puts points a little beyond its surface (a plane): `M (lift / dt)² / 2`;
+//! - an object that puts points in one step outside that start inside it (a sphere): `m (depth / dt)² / 2` each;
 //! - rounding.
 //!
-//! A blow-up that the stretch limit holds below this is visible only in the energy ledger: the springs
-//! put in what the limit takes out, in every step. So where a ledger is kept, what springs and
-//! gravity have put in must not exceed the same allowance. With fewer steps than are stable at rest
+//! A blow-up that the stretch limit holds below this bound is visible only in the energy ledger: in every
+//! step the springs put in what the limit takes out. So where a ledger is recorded, what springs and
+//! gravity have put in must not exceed the same allowance either. With fewer steps than are stable at rest
 //! they put in more than that within a second. Without a ledger such a blow-up is missed; the
-//! command line keeps one whenever the cloth may become unstable behind a stretch limit.
+//! command line records one whenever the cloth may become unstable behind a stretch limit.
 //!
-//! Where Verlet's step is stable at worst (`stability`) the ledger is no judge: no blow-up was
-//! found there, but what the springs put in has no bound. Every correction of the stretch limit is a kick that
-//! they answer by up to `1 / (1 - (dt ω / 2)²)` times its energy, and a cloth that is so heavy that
-//! the limit bears it is corrected in every step for as long as it hangs (`docs/stability.md` has
-//! the runs).
+//! Where the step is below the integrator's bound in motion ([`crate::diagnostics::stability`]), the ledger is not
+//! checked: no blow-up was found there, but what the springs put in has no bound. Each correction of the
+//! stretch limit is a kick that they answer by up to `1 / (1 - (dt ω / 2)²)` times its energy, and a cloth that is
+//! so heavy that the limit bears it is corrected in every step for as long as it hangs
+//! (`docs/stability.md` has the runs).
 
 use super::energy::Energy;
-use super::grid::Grid;
 use super::ledger::Ledger;
-use super::springs::Springs;
-use super::stability::is_always_stable;
-use super::{Constants, Points, len};
-use crate::scene::{Cloth, Integrator, Scene, SelfCollision, Vec3};
+use super::stability::is_bounded_and_always_stable;
+use crate::cloth::grid::Grid;
+use crate::cloth::springs::Springs;
+use crate::cloth::{Params, Points, len};
+use crate::collision::Colliders;
+use crate::scene::{Cloth, Scene, SelfCollision};
 
 /// Largest coordinate, in metres: as large as any number that a scene may hold.
 pub(crate) const RANGE: f64 = 1e15;
@@ -45,62 +46,59 @@ pub(crate) const RANGE: f64 = 1e15;
 /// The part of the largest energy that rounding may add.
 const ROUNDING: f64 = 1e-9;
 
-/// What a scene's cloth may have on top of its energy at the start, whatever that start is.
+/// The part of the bound that a scene gives, whatever the start.
 #[derive(Clone, Debug)]
 pub(crate) struct Allowance {
-    /// For the finite step, self-collision and planes, in J.
+    /// For the finite step, self-collision and objects that lift points, in J.
     fixed: f64,
     grid: Grid,
     /// Distance that self-collision keeps, in metres; 0 without it.
     distance: f64,
-    /// Whether what springs and gravity put in is bounded too.
+    /// Whether what springs and gravity put in is bounded, too.
     bounds_exchange: bool,
 }
 
 impl Allowance {
-    /// The allowance of the cloth of `scene`, which has `springs` and is put at most `lift`, in metres,
-    /// beyond the surface of an object.
+    /// The allowance of the cloth of `scene`, which has `springs`.
     pub(crate) fn new(
         scene: &Scene,
         cloth: &Cloth,
         springs: &Springs,
-        constants: &Constants,
-        lift: f64,
+        colliders: &Colliders,
+        params: &Params,
     ) -> Self {
-        let Constants { mass, dt, .. } = *constants;
+        let Params { mass, dt, .. } = *params;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
         let distance = match scene.sim.self_collision {
             SelfCollision::Off => 0.0,
             _ => 2.0 * cloth.thickness,
         };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
-        fixed += motion(all, distance / constants.steps_per_frame / dt) + stretched_to(distance, springs);
-        fixed += motion(all, lift / dt);
-        let verlet = scene.sim.integrator == Integrator::Verlet;
-        let bounds_exchange = !(verlet && is_always_stable(cloth, &scene.sim));
+        fixed += motion(all, distance / params.steps_per_frame / dt) + stretched_to(distance, springs);
+        fixed += motion(all, colliders.largest_lift() / dt);
+        let bounds_exchange = !is_bounded_and_always_stable(cloth, &scene.sim);
         Self { fixed, grid: springs.grid, distance, bounds_exchange }
     }
 
-    /// The budget of a cloth that starts at `x` with `energy`. Each of `depths` is how far one step moves
-    /// a point that starts inside an object at the place given, in metres.
-    pub(crate) fn budget(
+    /// The bound of a cloth that starts at `x` with `energy`.
+    pub(crate) fn energy_bound(
         &self,
         x: &Points,
         energy: Energy,
-        constants: &Constants,
-        depths: impl Iterator<Item = impl Fn(Vec3) -> f64>,
-    ) -> Budget {
+        colliders: &Colliders,
+        params: &Params,
+    ) -> EnergyBound {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
-        let Constants { dt, steps_per_frame, .. } = *constants;
+        let Params { dt, steps_per_frame, .. } = *params;
         for p in 0..x.len() {
             let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
-            allowance += motion(constants.mass, depth / (dt * steps_per_frame.sqrt()));
+            allowance += motion(params.mass, depth / (dt * steps_per_frame.sqrt()));
         }
-        for depth in depths {
-            let energies = (0..x.len()).map(|p| motion(constants.mass, depth(x.get(p)) / constants.dt));
-            allowance += energies.sum::<f64>();
+        for shape in colliders.shapes() {
+            let speed = |p| shape.depth(x.get(p)) / params.dt;
+            allowance += (0..x.len()).map(|p| motion(params.mass, speed(p))).sum::<f64>();
         }
-        Budget { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
+        EnergyBound { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
     }
 }
 
@@ -120,18 +118,18 @@ fn motion(mass: f64, speed: f64) -> f64 {
     0.5 * mass * speed * speed
 }
 
-/// The energy that a cloth may have.
+/// The most energy that a cloth can have.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Budget {
+pub(crate) struct EnergyBound {
     /// Total energy at the start, in J.
     start: f64,
     /// What may come on top, in J.
     allowance: f64,
-    /// Whether springs and gravity may put in no more than that.
+    /// Whether it bounds what springs and gravity put in, too.
     bounds_exchange: bool,
 }
 
-impl Budget {
+impl EnergyBound {
     /// The most that points may have in motion and height together, in J, where the energies are
     /// of the sizes in `energy`.
     pub(crate) fn limit(&self, energy: Energy) -> f64 {
@@ -145,13 +143,13 @@ impl Budget {
         self.limit(energy) - self.start
     }
 
-    /// Whether springs and gravity put in more than is allowed.
-    pub(crate) fn is_overdrawn(&self, ledger: Ledger, energy: Energy) -> bool {
+    /// Whether springs and gravity put in more than they can.
+    pub(crate) fn is_exceeded_by_exchange(&self, ledger: Ledger, energy: Energy) -> bool {
         self.bounds_exchange && ledger.gravity + ledger.springs > self.exchange_limit(energy)
     }
 
-    /// Whether `energy`, with or without the springs', is more than is allowed.
-    pub(crate) fn is_broken(&self, energy: Energy) -> bool {
+    /// Whether `energy`, with or without the springs', is more than there can be.
+    pub(crate) fn is_exceeded(&self, energy: Energy) -> bool {
         energy.total() > self.limit(energy)
     }
 }

@@ -7,9 +7,9 @@
 
 use std::ops::Range;
 
-use super::gather::Gather;
-use super::springs::{Family, Springs};
-use super::{Points, filled, len};
+use crate::cloth::accumulate::Accumulator;
+use crate::cloth::springs::{Family, Springs};
+use crate::cloth::{Points, filled, len};
 use crate::error::Result;
 
 /// The springs of one family where they are now, an entry a point.
@@ -23,8 +23,8 @@ struct Tangents {
 
 /// The stiffness of the springs of a cloth where they are now.
 #[derive(Clone, Debug)]
-pub(crate) struct Stiffness {
-    gather: Gather<f64>,
+pub(super) struct Stiffness {
+    accumulator: Accumulator<f64>,
     families: Vec<Tangents>,
     /// The diagonal of the matrix, in N/m.
     diagonal: Points,
@@ -35,20 +35,20 @@ impl Stiffness {
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(springs: &Springs) -> Result<Self> {
+    pub(super) fn new(springs: &Springs) -> Result<Self> {
         let points = springs.grid.len();
         let tangents = || Ok(Tangents { along: Points::zeros(points)?, all: filled(points, 0.0)? });
         let families = springs.families.iter().map(|_| tangents()).collect::<Result<_>>()?;
-        Ok(Self { gather: Gather::new(springs)?, families, diagonal: Points::zeros(points)? })
+        Ok(Self { accumulator: Accumulator::new(springs)?, families, diagonal: Points::zeros(points)? })
     }
 
     /// The diagonal of the matrix, in N/m.
-    pub(crate) fn diagonal(&self) -> &Points {
+    pub(super) fn diagonal(&self) -> &Points {
         &self.diagonal
     }
 
     /// Takes the stiffness of `springs` with the points at `x`.
-    pub(crate) fn update(&mut self, x: &Points, springs: &Springs) {
+    pub(super) fn update(&mut self, x: &Points, springs: &Springs) {
         let [dx, dy, dz] = self.diagonal.components_mut();
         [&mut *dx, &mut *dy, &mut *dz].into_iter().for_each(|d| d.fill(0.0));
         for (family, tangents) in springs.families.iter().zip(&mut self.families) {
@@ -66,17 +66,17 @@ impl Stiffness {
     }
 
     /// What the springs do, in N, when the points move by `moves`: minus the matrix times `moves`.
-    pub(crate) fn resist(&mut self, moves: &Points, springs: &Springs) -> &Points {
+    pub(super) fn resist(&mut self, moves: &Points, springs: &Springs) -> &Points {
         let families = &self.families;
-        self.gather.sum_up(springs, [0.0; 3], |index, family, points, out| {
+        self.accumulator.accumulate(springs, [0.0; 3], |index, family, points, out| {
             families[index].resist(moves, family.offset, points, out);
         });
-        &self.gather.sum
+        &self.accumulator.sum
     }
 }
 
 impl Tangents {
-    /// Takes the stiffness of the spring of `family` that point `a` made.
+    /// Takes the stiffness of the spring of `family` that point `a` owns.
     fn set(&mut self, a: usize, x: &Points, family: &Family) {
         let e = x.get(a - family.offset) - x.get(a);
         let l = len(e);
@@ -86,7 +86,7 @@ impl Tangents {
         self.along.set(a, if l == 0.0 { e } else { e * ((k - all).sqrt() / l) });
     }
 
-    /// What the springs that `points` made add to their own points.
+    /// What the springs that `points` own add to their owners.
     fn resist(&self, moves: &Points, offset: usize, points: Range<usize>, out: [&mut [f64]; 3]) {
         let n = points.len();
         let b = points.start - offset..points.end - offset;

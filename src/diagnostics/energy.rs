@@ -1,7 +1,7 @@
 //! The energies of a cloth.
 
-use super::springs::Springs;
-use super::{Constants, Points, dot, len};
+use crate::cloth::springs::Springs;
+use crate::cloth::{Params, Points, dot, len};
 
 /// The energies of a cloth, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -18,17 +18,17 @@ pub struct Energy {
 
 impl Energy {
     /// The energies of points at `x` that were at `last` one step ago.
-    pub fn new(x: &Points, last: &Points, springs: &Springs, constants: &Constants) -> Self {
-        Self { spring: spring_energy(x, springs), ..Self::without_springs(x, last, constants) }
+    pub fn new(x: &Points, last: &Points, springs: &Springs, params: &Params) -> Self {
+        Self { spring: spring_energy(x, springs), ..Self::without_springs(x, last, params) }
     }
 
     /// The same, but nothing for the springs.
-    pub(crate) fn without_springs(x: &Points, last: &Points, constants: &Constants) -> Self {
+    pub(crate) fn without_springs(x: &Points, last: &Points, params: &Params) -> Self {
         let mut energy = Self::default();
         for p in 0..x.len() {
-            let velocity = (x.get(p) - last.get(p)) / constants.dt;
-            energy.kinetic += 0.5 * constants.mass * dot(velocity, velocity);
-            energy.gravitational -= dot(constants.weight, x.get(p));
+            let velocity = (x.get(p) - last.get(p)) / params.dt;
+            energy.kinetic += 0.5 * params.mass * dot(velocity, velocity);
+            energy.gravitational -= dot(params.weight, x.get(p));
         }
         energy
     }

@@ -3,7 +3,7 @@
 //! wherever it runs.
 
 use super::stiffness::Stiffness;
-use super::{Model, Points};
+use crate::cloth::{Model, Points};
 use crate::error::Result;
 
 /// Partial sums of a dot product.
@@ -11,18 +11,18 @@ const LANES: usize = 8;
 
 /// The matrix of the system.
 #[derive(Clone, Debug)]
-pub(crate) struct Matrix {
+pub(super) struct Matrix {
     /// Above 0, in N/m, one a point.
-    pub(crate) inertia: Vec<f64>,
+    pub(super) inertia: Vec<f64>,
     /// That of the springs.
-    pub(crate) stiffness: Stiffness,
+    pub(super) stiffness: Stiffness,
 }
 
 /// The vectors of the method.
 #[derive(Clone, Debug)]
-pub(crate) struct ConjugateGradients {
+pub(super) struct ConjugateGradients {
     /// The solution s, in metres; 0 for pinned points.
-    pub(crate) solution: Points,
+    pub(super) solution: Points,
     residual: Points,
     direction: Points,
     product: Points,
@@ -35,7 +35,7 @@ impl ConjugateGradients {
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(points: usize) -> Result<Self> {
+    pub(super) fn new(points: usize) -> Result<Self> {
         let zeros = || Points::zeros(points);
         Ok(Self {
             solution: zeros()?,
@@ -47,8 +47,8 @@ impl ConjugateGradients {
     }
 
     /// Solves for `right`, in N and 0 for pinned points, until the residual has at most the length
-    /// `target`, in N; or as many rounds as there are unknowns. Returns how many rounds it took.
-    pub(crate) fn solve(
+    /// `target`, in N; or as many iterations as there are unknowns. Returns how many iterations it took.
+    pub(super) fn solve(
         &mut self,
         right: &Points,
         target: f64,
@@ -57,19 +57,19 @@ impl ConjugateGradients {
     ) -> usize {
         self.start(right, matrix);
         let mut descent = self.residual_times_jacobi();
-        let mut rounds = 0;
+        let mut iterations = 0;
         // A residual that is no number ends it too.
-        while rounds < 3 * right.len() && length(&self.residual) > target {
-            rounds += 1;
+        while iterations < 3 * right.len() && length(&self.residual) > target {
+            iterations += 1;
             self.multiply(matrix, model);
             let step = descent / dot(&self.direction, &self.product);
             add(&mut self.solution, step, &self.direction);
             add(&mut self.residual, -step, &self.product);
             let next = self.residual_times_jacobi();
-            self.turn(next / descent);
+            self.update_direction(next / descent);
             descent = next;
         }
-        rounds
+        iterations
     }
 
     /// The solution 0, and the first direction.
@@ -83,7 +83,7 @@ impl ConjugateGradients {
         }
         self.solution.components_mut().into_iter().for_each(|solution| solution.fill(0.0));
         self.direction.components_mut().into_iter().for_each(|direction| direction.fill(0.0));
-        self.turn(0.0);
+        self.update_direction(0.0);
     }
 
     /// The matrix times the direction; 0 for pinned points.
@@ -101,7 +101,7 @@ impl ConjugateGradients {
     }
 
     /// The next direction: the preconditioned residual and `part` of the last one.
-    fn turn(&mut self, part: f64) {
+    fn update_direction(&mut self, part: f64) {
         let direction = self.direction.components_mut().into_iter();
         let residual = self.residual.components().into_iter().zip(self.jacobi.components());
         for (direction, (residual, jacobi)) in direction.zip(residual) {
@@ -119,17 +119,17 @@ impl ConjugateGradients {
 }
 
 /// `a · b` over all points.
-pub(crate) fn dot(a: &Points, b: &Points) -> f64 {
+pub(super) fn dot(a: &Points, b: &Points) -> f64 {
     a.components().into_iter().zip(b.components()).map(|(a, b)| sum(a, |p| a[p] * b[p])).sum()
 }
 
 /// The length of `a`, all points together.
-pub(crate) fn length(a: &Points) -> f64 {
+pub(super) fn length(a: &Points) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// `a += factor b`
-pub(crate) fn add(a: &mut Points, factor: f64, b: &Points) {
+pub(super) fn add(a: &mut Points, factor: f64, b: &Points) {
     for (a, b) in a.components_mut().into_iter().zip(b.components()) {
         a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
     }

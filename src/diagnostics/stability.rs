@@ -1,10 +1,8 @@
-//! The largest step at which the springs are stable, known before the first one.
+//! Whether the step is short enough for the springs, known before the first one.
 //!
-//! A vibration of angular frequency ω under Verlet's scheme with the part `d` of the displacement
-//! lost per step obeys `z² - (2 - d - (dt ω)²) z + (1 - d) = 0`; both roots lie inside the unit
-//! circle, or on it without damping, iff `(dt ω)² < 4 - 2 d` (Jury's criterion). ω² is an eigenvalue of the stiffness matrix
-//! over the mass, so the largest eigenvalue decides. With damping per second at the rate c it is
-//! `(1 + h) z² - (2 - (dt ω)²) z + (1 - h) = 0` with h = c dt / 2, and the bound 4 for every c.
+//! An explicit integrator is stable while dt ω stays below its bound ([`crate::integrator`] derives each),
+//! ω the angular frequency of the fastest vibration. ω² is an eigenvalue of the stiffness matrix over the
+//! mass, so the largest eigenvalue decides.
 //!
 //! A spring of stiffness k, length l and rest length l0 in direction n has the stiffness matrix
 //! `k (n nᵀ + (1 - l0 / l)(I - n nᵀ))`.
@@ -14,56 +12,55 @@
 //!   from below, on the whole grid or on a part of it: a part vibrates no faster than the whole.
 //!   With a side beyond `PART` points the part is `PART` points long and free of pins, and its
 //!   eigenvalue less than 0.5 % below that of the endless lattice (0.1 % with every kind of
-//!   spring). Where the pins leave no such part it is the whole grid, with as many rounds as
+//!   spring). Where the pins leave no such part it is the whole grid, with as many iterations as
 //!   `WORK` allows.
 //! - *At worst*, in any shape, it is at most `k I`, so the scalar lattice bounds it: with
 //!   P = sin²(p/2) and Q = sin²(q/2) of the wave numbers p and q, the structural springs give
 //!   4 ks (P + Q), the shearing springs 8 ks (P + Q - 2 P Q) and the bending springs
 //!   3.2 ks (P (1 - P) + Q (1 - Q)). The largest sum is 12 ks with structural and shearing
 //!   springs, at P = 1, Q = 0, where bending adds nothing.
-//!
-//! Both bounds are for small vibrations about a shape that stands still. A cloth in motion changes
-//! its shape as it vibrates, and that can feed a vibration below the bound: Verlet's scheme has
-//! resonances of third and fourth order at `dt ω` = √3 and √2 (Skeel, Zhang and Schlick 1997). A cloth
-//! of 12 × 12 points without damping gained energy within 300 s at each of 1.98, 1.85, 1.78 and 1.71
-//! at worst, and at none of 1.60, 1.50 and 1.41. So without damping the bound at worst is √2. With
-//! damping, even of 0.05 %, no cloth was found that gains energy below its bound at worst.
 
-use std::f64::consts::SQRT_2;
-
-use super::grid::{Grid, Pins, start};
-use super::springs::Springs;
-use super::{Constants, Points, dot, filled};
+use crate::cloth::grid::{Grid, Pins, start};
+use crate::cloth::springs::Springs;
+use crate::cloth::{Params, Points, dot, filled};
 use crate::error::Result;
+use crate::integrator::{StepBound, step_bound, verlet_step_bound};
 use crate::math::splitmix64;
-use crate::scene::{Cloth, Damping, Sim, Vec3};
+use crate::scene::{Cloth, Sim, Vec3};
 
 /// Points along each side of the part of a large cloth whose vibrations are computed.
 const PART: usize = 64;
 
-/// Most rounds of the power iteration.
-const ROUNDS: usize = 200;
+/// Most iterations of the power method.
+const ITERATIONS: usize = 200;
 
-/// Points times rounds of the power iteration on the whole of a large cloth: about a second.
+/// Points times iterations of the power method on the whole of a large cloth: about a second.
 const WORK: usize = 10_000_000;
 
-/// The fastest vibrations of a cloth against its step.
+/// Most corrections of a number of steps by the bound at that number.
+const CORRECTIONS: usize = 100;
+
+/// The fastest vibrations of a cloth against its step. For an integrator that is stable at every step, the bounds are
+/// those of Verlet's scheme, for comparison.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Stability {
     /// Mass of a point, in kg.
     pub mass: f64,
     /// Step, in seconds.
     pub dt: f64,
-    /// Largest `dt ω` that is still stable: `sqrt(4 - 2 d)`, or 2 with damping per second.
+    /// Largest `dt ω` that is stable for small vibrations about a shape at rest.
     pub limit: f64,
-    /// The same for a cloth in motion: `limit`, or √2 without damping.
+    /// Largest `dt ω` that is stable for a cloth in motion.
     pub limit_worst: f64,
     /// Angular frequency of the fastest vibration of the cloth at rest, in rad/s; never too large.
     pub omega_rest: f64,
     /// Angular frequency that no shape of the cloth exceeds, in rad/s.
     pub omega_safe: f64,
     /// Frames per second.
-    fps: f64,
+    pub fps: f64,
+    /// The fewest steps per frame at rest and in motion.
+    #[serde(skip)]
+    fewest: [f64; 2],
 }
 
 impl Stability {
@@ -72,16 +69,24 @@ impl Stability {
     /// # Errors
     /// [`crate::error::Kind::Scene`] for a cloth that no simulation accepts.
     pub fn new(cloth: &Cloth, sim: &Sim) -> Result<Self> {
-        let Constants { mass, dt, .. } = Constants::new(cloth, sim);
-        Ok(Self {
-            mass,
-            dt,
-            limit: limit(cloth, sim),
-            limit_worst: limit_worst(cloth, sim),
-            omega_rest: (rest_eigenvalue(cloth)? / mass).sqrt(),
-            omega_safe: (safe_eigenvalue(cloth) / mass).sqrt(),
-            fps: sim.fps,
-        })
+        let Params { mass, dt, .. } = Params::new(cloth, sim);
+        let StepBound { at_rest, in_motion } = bound(cloth, sim, dt);
+        let omega_rest = (rest_eigenvalue(cloth)? / mass).sqrt();
+        let omega_safe = safe_omega(cloth, mass);
+        let fewest = [
+            fewest_steps(cloth, sim, omega_rest, |bound| bound.at_rest),
+            fewest_steps(cloth, sim, omega_safe, |bound| bound.in_motion),
+        ];
+        let (limit, limit_worst, fps) = (at_rest, in_motion, sim.fps);
+        Ok(Self { mass, dt, limit, limit_worst, omega_rest, omega_safe, fps, fewest })
+    }
+
+    /// The same, if the integrator of `sim` has a bound; `None` if it is stable at every step.
+    ///
+    /// # Errors
+    /// As [`Stability::new`].
+    pub fn of_bounded(cloth: &Cloth, sim: &Sim) -> Result<Option<Self>> {
+        has_step_bound(cloth, sim).then(|| Self::new(cloth, sim)).transpose()
     }
 
     /// Whether the cloth is unstable even at rest: any disturbance grows until it blows up.
@@ -89,40 +94,61 @@ impl Stability {
         self.dt * self.omega_rest >= self.limit
     }
 
-    /// Whether small vibrations about any shape are stable, and without damping free of the resonances of
-    /// low order that the module describes.
+    /// Whether the step is below the bound for a cloth in motion, in any shape.
     pub fn is_always_stable(&self) -> bool {
         self.dt * self.omega_safe < self.limit_worst
     }
 
     /// The fewest steps per frame at which the cloth is not unstable at rest.
     pub fn fewest_steps_rest(&self) -> f64 {
-        (self.omega_rest / (self.fps * self.limit)).floor() + 1.0
+        self.fewest[0]
     }
 
     /// The fewest steps per frame at which it is [`Stability::is_always_stable`].
     pub fn fewest_steps_worst(&self) -> f64 {
-        (self.omega_safe / (self.fps * self.limit_worst)).floor() + 1.0
+        self.fewest[1]
     }
+}
+
+/// Whether the integrator of `sim` has a longest stable step.
+pub fn has_step_bound(cloth: &Cloth, sim: &Sim) -> bool {
+    step_bound(cloth, sim, Params::new(cloth, sim).dt).is_some()
 }
 
 /// As [`Stability::is_always_stable`], without the work that the cloth at rest takes.
 pub fn is_always_stable(cloth: &Cloth, sim: &Sim) -> bool {
-    let Constants { mass, dt, .. } = Constants::new(cloth, sim);
-    dt * (safe_eigenvalue(cloth) / mass).sqrt() < limit_worst(cloth, sim)
+    let Params { mass, dt, .. } = Params::new(cloth, sim);
+    dt * safe_omega(cloth, mass) < bound(cloth, sim, dt).in_motion
 }
 
-/// The largest `dt ω` that is still stable.
-fn limit(cloth: &Cloth, sim: &Sim) -> f64 {
-    match sim.damping {
-        Damping::PerStep => (4.0 - 2.0 * cloth.damping / 100.0).sqrt(),
-        Damping::PerSecond => 2.0,
+/// Whether the integrator of `sim` has a longest stable step, and the step is shorter in any shape of the
+/// cloth.
+pub(super) fn is_bounded_and_always_stable(cloth: &Cloth, sim: &Sim) -> bool {
+    has_step_bound(cloth, sim) && is_always_stable(cloth, sim)
+}
+
+/// The bound of the integrator of `sim`, or that of Verlet's scheme.
+fn bound(cloth: &Cloth, sim: &Sim, dt: f64) -> StepBound {
+    step_bound(cloth, sim, dt).unwrap_or_else(|| verlet_step_bound(cloth, sim.damping))
+}
+
+/// The fewest steps per frame at which `dt omega` is below the bound that `pick` picks.
+fn fewest_steps(cloth: &Cloth, sim: &Sim, omega: f64, pick: fn(StepBound) -> f64) -> f64 {
+    let needed = |steps: f64| {
+        let limit = pick(bound(cloth, sim, 1.0 / sim.fps / steps));
+        // Where damping alone is too much for the step, no vibration is stable.
+        if limit > 0.0 { (omega / (sim.fps * limit)).floor() + 1.0 } else { 2.0 * steps }
+    };
+    // The bound may depend on the step, so the number is corrected until it agrees with its own bound.
+    let mut steps = needed(f64::from(sim.steps_per_frame));
+    for _ in 0..CORRECTIONS {
+        let corrected = needed(steps);
+        if corrected == steps {
+            break;
+        }
+        steps = corrected;
     }
-}
-
-/// The largest `dt ω` that is stable for a cloth in motion.
-fn limit_worst(cloth: &Cloth, sim: &Sim) -> f64 {
-    if cloth.damping > 0.0 { limit(cloth, sim) } else { SQRT_2 }
+    steps
 }
 
 /// The largest eigenvalue of the stiffness of `cloth` at rest, pinned points held, in N/m: never
@@ -134,9 +160,9 @@ fn rest_eigenvalue(cloth: &Cloth) -> Result<f64> {
     match free_part(grid, part, &pins)? {
         Some(corner) if part != grid => {
             let free = Pins { pinned: filled(part.len(), false)?, ..Pins::default() };
-            fastest(cloth, part, &copied(&x, grid, corner, part)?, &free, ROUNDS)
+            fastest(cloth, part, &copied(&x, grid, corner, part)?, &free, ITERATIONS)
         }
-        _ => fastest(cloth, grid, &x, &pins, (WORK / grid.len()).clamp(4, ROUNDS)),
+        _ => fastest(cloth, grid, &x, &pins, (WORK / grid.len()).clamp(4, ITERATIONS)),
     }
 }
 
@@ -170,13 +196,13 @@ fn copied(x: &Points, grid: Grid, corner: usize, part: Grid) -> Result<Points> {
 }
 
 /// The largest eigenvalue of the stiffness of points at `x` that are joined as those of `cloth`, in
-/// N/m: found by `rounds` rounds of power iteration, so from below.
-fn fastest(cloth: &Cloth, grid: Grid, x: &Points, pins: &Pins, rounds: usize) -> Result<f64> {
+/// N/m: found by so many `iterations` of the power method, so from below.
+fn fastest(cloth: &Cloth, grid: Grid, x: &Points, pins: &Pins, iterations: usize) -> Result<f64> {
     let springs = Springs::new(cloth, grid, x)?;
     let mut moves = first_guess(cloth, grid)?;
     let mut pull = Points::zeros(grid.len())?;
     let mut eigenvalue = 0.0;
-    for _ in 0..rounds {
+    for _ in 0..iterations {
         normalise(&mut moves, pins);
         apply_stiffness(&springs, x, &moves, &mut pull);
         eigenvalue = inner(&moves, &pull);
@@ -232,6 +258,11 @@ fn apply_stiffness(springs: &Springs, x: &Points, moves: &Points, pull: &mut Poi
 /// Sum over the points of `a · b`.
 fn inner(a: &Points, b: &Points) -> f64 {
     (0..a.len()).map(|p| dot(a.get(p), b.get(p))).sum()
+}
+
+/// The angular frequency that no shape of `cloth` exceeds, in rad/s, for points of `mass`.
+fn safe_omega(cloth: &Cloth, mass: f64) -> f64 {
+    (safe_eigenvalue(cloth) / mass).sqrt()
 }
 
 /// A bound of the eigenvalues of the stiffness of `cloth` in any shape, in N/m.

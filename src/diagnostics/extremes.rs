@@ -1,7 +1,7 @@
 //! How far a cloth is stretched, how close its points are and how fast they move.
 
-use super::springs::{SpringKind, Springs};
-use super::{Points, dot, len};
+use crate::cloth::springs::{SpringKind, Springs};
+use crate::cloth::{Points, dot, len};
 
 /// The extremes of a cloth at one moment; all zero without a cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]

@@ -5,7 +5,7 @@
 //! a frame, and what changed it since the frame before, which is all that acts on the point:
 //! forces, contacts and the stretch limit. The second tells rest from the turning point of a swing.
 
-use super::{Points, len};
+use crate::cloth::{Points, len};
 use crate::error::Result;
 use crate::scene::{Cloth, Sim};
 

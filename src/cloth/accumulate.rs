@@ -1,10 +1,11 @@
-//! Sums what the springs do to each point, in the order in which the springs were created.
+//! Adds up what the springs do to each point, in the order in which the springs were created.
 //!
-//! What each spring does is computed once, a row of one family at a time, and then added to its
-//! ends: a point's own springs first, then those that end at it, in index order of the points that
-//! made them. Those are the right neighbour, the second to the right, and of the rows below the
-//! left, the middle, the right and the second. So the springs of a row give its own points the first
-//! part of their sum, those of the row above the second, and those of the row above that the last.
+//! The owner of a spring is the point of its two ends with the larger index, which created it. Each
+//! spring is computed once, a row of one family at a time, and then added to both ends. A point
+//! first gets the springs that it owns, then the other springs that end at it, in index order of
+//! their owners: the right neighbour, the second to the right, and of the rows below the left, the
+//! middle, the right and the second. So the springs owned by a row give the row itself the first part
+//! of its sums, the row above the second part, and the row above that the last.
 //!
 //! Bands of rows are summed on their own: each computes for itself the springs of the two rows
 //! below it that end in it.
@@ -14,8 +15,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::chunks::MANY;
 use super::grid::Grid;
-use super::pieces::MANY;
 use super::real::Real;
 use super::springs::{FAMILIES, Family, Springs};
 use super::{Points, filled};
@@ -29,13 +30,13 @@ const PAD: usize = 2;
 /// the springs computed twice, about as many as a row has, are few beside them.
 const ROWS: usize = 20;
 
-/// One component of what a row's springs do to the points that made them, one array per family.
+/// One component of what the springs owned by a row do to their owners, one array per family.
 /// Entry `PAD + i` belongs to column i and is 0 where there is no spring.
 type Pulls<T> = [Vec<T>; FAMILIES];
 
 /// The sum over the springs of every point.
 #[derive(Clone, Debug)]
-pub(crate) struct Gather<T> {
+pub(crate) struct Accumulator<T> {
     /// The sum on every point.
     pub(crate) sum: Points<T>,
     /// Rows of a band.
@@ -44,7 +45,7 @@ pub(crate) struct Gather<T> {
     bands: Vec<[Pulls<T>; 3]>,
 }
 
-impl<T: Real> Gather<T> {
+impl<T: Real> Accumulator<T> {
     /// Room for the sums over `springs`.
     ///
     /// # Errors
@@ -60,10 +61,10 @@ impl<T: Real> Gather<T> {
         Ok(Self { sum: Points::filled(springs.grid.len())?, rows, bands })
     }
 
-    /// Sums `constant` and what each spring does to its ends: `pull` computes, for the springs of a
-    /// family (its place in `springs.families`) that `n` points from index `a` on made, what each
-    /// adds to its own point and takes from its other end.
-    pub(crate) fn sum_up(
+    /// Adds up `constant` and what each spring does to its ends: for the springs of a family (given with its
+    /// place in `springs.families`) that a range of points owns, `pull` computes what each spring adds
+    /// to its owner and takes from its other end.
+    pub(crate) fn accumulate(
         &mut self,
         springs: &Springs,
         constant: [T; 3],
@@ -100,7 +101,7 @@ impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Work for Band<
 }
 
 impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P> {
-    /// Computes what those springs do that the points of row `j` made and that end in the band.
+    /// Computes the springs that are owned by row `j` and end in the band.
     #[inline(always)]
     fn pull_row(&mut self, j: usize) {
         for (index, family) in self.springs.families.iter().enumerate() {
@@ -116,7 +117,7 @@ impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P>
         }
     }
 
-    /// Adds what the springs do that the points of row `j` made to the sums of the band.
+    /// Adds the springs that are owned by row `j` to the sums of the band.
     #[inline(always)]
     fn sum_row(&mut self, j: usize) {
         let Self { springs, constant, rows, pulls, sum, .. } = self;
@@ -139,41 +140,42 @@ impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P>
     }
 }
 
-/// Starts the sums of the row that made `pulls`.
+/// Starts the sums of the row that owns `pulls`.
 #[inline(always)]
 fn sum_own<T: Real>(sum: &mut [T], constant: T, pulls: &Pulls<T>) {
     let n = sum.len();
     let [left, above, upper_left, upper_right, left2, above2] =
-        array::from_fn(|slot| made_by(pulls, slot, 0, n));
-    let (right, right2) = (made_by(pulls, 0, 1, n), made_by(pulls, 4, 2, n));
+        array::from_fn(|slot| owned_by(pulls, slot, 0, n));
+    let (right, right2) = (owned_by(pulls, 0, 1, n), owned_by(pulls, 4, 2, n));
     for (i, sum) in sum.iter_mut().enumerate() {
         let own = constant + left[i] + above[i] + upper_left[i] + upper_right[i] + left2[i] + above2[i];
         *sum = own - right[i] - right2[i];
     }
 }
 
-/// Goes on with the sums of the row above the one that made `pulls`.
+/// Continues the sums of the row above the one that owns `pulls`.
 #[inline(always)]
 fn take_from_above<T: Real>(sum: &mut [T], pulls: &Pulls<T>) {
     let n = sum.len();
-    let (left, middle, right) = (made_by(pulls, 3, -1, n), made_by(pulls, 1, 0, n), made_by(pulls, 2, 1, n));
+    let (left, middle, right) =
+        (owned_by(pulls, 3, -1, n), owned_by(pulls, 1, 0, n), owned_by(pulls, 2, 1, n));
     for (i, sum) in sum.iter_mut().enumerate() {
         *sum = *sum - left[i] - middle[i] - right[i];
     }
 }
 
-/// Ends the sums of the second row above the one that made `pulls`.
+/// Ends the sums of the second row above the one that owns `pulls`.
 #[inline(always)]
 fn take_from_above2<T: Real>(sum: &mut [T], pulls: &Pulls<T>) {
     let n = sum.len();
-    for (sum, &pull) in sum.iter_mut().zip(made_by(pulls, 5, 0, n)) {
-        *sum = *sum - pull;
+    for (sum, &pull) in sum.iter_mut().zip(owned_by(pulls, 5, 0, n)) {
+        *sum -= pull;
     }
 }
 
-/// The pulls of family `slot` that a row of `n` points gets from the points `right` columns to
-/// its right.
+/// The pulls of family `slot` on a row of `n` points by springs whose owners stand `right` columns to
+/// the right.
 #[inline(always)]
-fn made_by<T>(pulls: &Pulls<T>, slot: usize, right: isize, n: usize) -> &[T] {
+fn owned_by<T>(pulls: &Pulls<T>, slot: usize, right: isize, n: usize) -> &[T] {
     &pulls[slot][PAD.wrapping_add_signed(right)..][..n]
 }

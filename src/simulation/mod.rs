@@ -1,21 +1,26 @@
 //! One simulation: the state of a cloth and the step that moves it on.
 
-mod guarded;
-mod locate;
-mod scheme;
+mod blow_up;
+mod checks;
+mod ledger_recorder;
+mod observer;
+mod phase;
 mod state;
-mod stopwatch;
+mod step;
+mod timing;
 mod variants;
 
-pub use stopwatch::Timings;
+pub use timing::Timings;
 
+use blow_up::Replay;
+use ledger_recorder::LedgerRecorder;
 use state::State;
-use stopwatch::Stopwatch;
+use timing::Timing;
 
-use crate::cloth::energy::Energy;
-use crate::cloth::ledger::{Ledger, Recorder};
-use crate::cloth::measure::Extremes;
-use crate::cloth::{Constants, Counters, Points, pieces};
+use crate::cloth::{Counters, Params, Points, chunks};
+use crate::diagnostics::energy::Energy;
+use crate::diagnostics::extremes::Extremes;
+use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
 use crate::math::StateHash;
 use crate::scene::Scene;
@@ -27,8 +32,8 @@ pub struct Simulation {
     steps_per_second: f64,
     steps: u64,
     cloth: Option<State>,
-    counters: Counters,
-    stopwatch: Stopwatch,
+    /// The observers of each step: what was counted, and what is measured only when asked for.
+    observers: (Counters, Option<Timing>, Option<LedgerRecorder>),
     no_points: Points,
     guarded: bool,
 }
@@ -67,15 +72,19 @@ impl Simulation {
             steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
             steps: 0,
             cloth: State::new(scene, start)?,
-            counters: Counters::default(),
-            stopwatch: Stopwatch::default(),
+            observers: (Counters::default(), None, None),
             no_points: Points::default(),
             guarded: true,
         })
     }
 
-    /// Puts the points at `x`, coming from `last` one step ago, in metres: another start, or a
-    /// state kept from an earlier run. The springs keep their rest lengths, the clock its time.
+    /// Puts the points at `x`, coming from `last` one step ago, in metres, as a new start for the cloth. The
+    /// springs keep their rest lengths, and [`Simulation::steps`] and [`Simulation::time`] do not change.
+    ///
+    /// With the positions and last positions of another run, this one goes on as that run did, to the last bit, if the
+    /// integrator remembers nothing else. Those that remember velocities (BDF2) start anew: the next step of
+    /// every point is a first one, with the velocity `(x - last) / dt`, so it is not that run's. The energy is held
+    /// against that of the new start.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when there is not one position for each point of the cloth.
@@ -85,47 +94,53 @@ impl Simulation {
         state::check_size(&last, points)?;
         if let Some(cloth) = &mut self.cloth {
             (cloth.x, cloth.last) = (x, last);
-            cloth.scheme.forget();
-            cloth.set_budget();
+            cloth.integrator.reset_history();
+            cloth.set_energy_bound();
         }
         Ok(())
     }
 
     /// Makes one step.
     pub fn step(&mut self) {
-        if let Some(cloth) = &mut self.cloth {
-            cloth.step(&mut self.counters, &mut self.stopwatch);
+        match &mut self.cloth {
+            Some(cloth) => cloth.step(&mut self.observers),
+            None => self.observers.0.steps += 1,
         }
-        self.counters.steps += 1;
         self.steps += 1;
     }
 
     /// Makes the steps of one frame, then checks that every position is a number within ±1e15 m
     /// and, unless [`Simulation::allow_unstable`] was called, that the cloth holds no more energy
-    /// than its forces can give it, nor got more if a ledger is kept (see `src/cloth/guard.rs`).
+    /// than its forces can give it, nor was given more if a ledger is recorded
+    /// (see `src/diagnostics/energy_bound.rs`).
     ///
     /// # Errors
     /// [`crate::error::Kind::Unstable`] when it is not so: with the step, the point, the spring and the phase.
     pub fn advance_frame(&mut self) -> Result<()> {
         let before = self.steps;
-        if let Some(cloth) = &mut self.cloth {
-            cloth.note_frame_start();
-        }
+        self.cloth.iter_mut().for_each(State::note_frame_start);
+        self.observers.2.iter_mut().for_each(LedgerRecorder::begin_frame);
         let points = self.positions().len();
-        pieces::with_threads(points, || (0..self.steps_per_frame).for_each(|_| self.step()));
-        match &self.cloth {
-            Some(cloth) if !cloth.is_sound(self.guarded) => {
-                Err(locate::error(cloth.at_frame_start(), before, self.steps_per_frame, self.guarded))
-            }
-            _ => Ok(()),
+        chunks::with_threads(points, || (0..self.steps_per_frame).for_each(|_| self.step()));
+        self.check(before)
+    }
+
+    /// The checks of a frame that began after so many `steps`.
+    fn check(&self, steps: u64) -> Result<()> {
+        let Self { steps_per_frame, guarded, observers: (.., ledger), .. } = self;
+        let Some(cloth) = &self.cloth else { return Ok(()) };
+        if cloth.is_in_range() && (!guarded || cloth.is_within_energy_bound(ledger.as_ref())) {
+            return Ok(());
         }
+        let (cloth, ledger) = (cloth.at_frame_start(), ledger.clone());
+        Err(Replay { cloth, ledger, steps, steps_per_frame: *steps_per_frame, guarded: *guarded }.error())
     }
 
     /// The first free point whose position rounds away more than a hundredth of what gravity adds
     /// to its displacement in a step, where `time` seconds of it would show.
     pub fn unresolved(&self, time: f64) -> Option<Unresolved> {
         let cloth = self.cloth.as_ref()?;
-        let Constants { weight, mass, dt, .. } = cloth.constants;
+        let Params { weight, mass, dt, .. } = cloth.params;
         for p in cloth.pins.free.iter().cloned().flatten() {
             let point = cloth.grid.column_row(p);
             for (axis, x) in cloth.x.get(p).iter().enumerate() {
@@ -172,34 +187,32 @@ impl Simulation {
 
     /// The energies of the cloth, in J; zero without a cloth.
     pub fn energy(&self) -> Energy {
-        let Some(cloth) = &self.cloth else { return Energy::default() };
-        Energy::new(&cloth.x, &cloth.last, &cloth.springs, &cloth.constants)
+        self.cloth.as_ref().map_or_else(Energy::default, State::energy)
     }
 
     /// The extremes of the cloth; zero without a cloth.
     pub fn extremes(&self) -> Extremes {
         let Some(cloth) = &self.cloth else { return Extremes::default() };
-        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.constants.dt)
+        Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.params.dt)
     }
 
-    /// Keeps an energy ledger from now on. The cloth moves as without one, to the last bit.
+    /// Records an energy ledger from now on. The cloth moves as without one, to the last bit.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when the ledger does not fit in memory.
     pub fn record_ledger(&mut self) -> Result<()> {
-        if let Some(cloth) = &mut self.cloth {
-            cloth.recorder = Some(Recorder::new(cloth.x.len(), true)?);
-        }
+        let recorder = self.cloth.as_ref().map(|cloth| LedgerRecorder::new(cloth.x.len()));
+        self.observers.2 = recorder.transpose()?;
         Ok(())
     }
 
     /// The ledger since [`Simulation::record_ledger`], if it was called and there is a cloth.
     pub fn ledger(&self) -> Option<Ledger> {
-        Some(self.cloth.as_ref()?.recorder.as_ref()?.ledger)
+        self.observers.2.as_ref().map(|recorder| recorder.ledger)
     }
 
     /// A hash over the bits of the positions, as the arrays x, y and z, and then of the last positions.
-    /// BDF2 remembers velocities too, which are not in it.
+    /// The velocities that some integrators remember are not in it.
     pub fn state_hash(&self) -> u64 {
         let mut hash = StateHash::default();
         for points in [self.positions(), self.last_positions()] {
@@ -212,16 +225,16 @@ impl Simulation {
 
     /// What was done since the start.
     pub fn counters(&self) -> Counters {
-        self.counters
+        self.observers.0
     }
 
     /// Measures from now on how long each phase takes.
     pub fn record_timings(&mut self) {
-        self.stopwatch.timings = Some(Timings::default());
+        self.observers.1 = Some(Timing::default());
     }
 
     /// How long each phase took since [`Simulation::record_timings`], if it was called.
     pub fn timings(&self) -> Option<Timings> {
-        self.stopwatch.timings
+        self.observers.1.map(|timing| timing.timings)
     }
 }
