@@ -33,8 +33,8 @@ impl Objects {
     pub(crate) fn new(scene: &Scene) -> Self {
         let unit = |plane: &Plane| Plane { normal: plane.normal / len(plane.normal), ..plane.clone() };
         Self {
-            planes: scene.planes.iter().map(unit).collect(),
-            spheres: scene.spheres.clone(),
+            planes: scene.planes().map(unit).collect(),
+            spheres: scene.spheres().cloned().collect(),
             plane_offset: SURFACE_OFFSET,
         }
     }

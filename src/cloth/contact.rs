@@ -33,8 +33,8 @@ impl Outside {
             (0..x.len()).for_each(|p| above[p] = dot(x.get(p) - plane.point, plane.normal) >= 0.0);
             Ok((plane, above))
         };
-        let planes = scene.planes.iter().map(sided).collect::<Result<_>>()?;
-        Ok(Self { planes, spheres: scene.spheres.clone() })
+        let planes = scene.planes().map(sided).collect::<Result<_>>()?;
+        Ok(Self { planes, spheres: scene.spheres().cloned().collect() })
     }
 
     /// Puts every unpinned point outside the planes.

@@ -70,12 +70,13 @@ impl Allowance {
         };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
         fixed += motion(all, distance / constants.steps_per_frame / dt) + stretched_to(distance, springs);
-        if !scene.planes.is_empty() {
+        if scene.planes().next().is_some() {
             fixed += motion(all, SURFACE_OFFSET / dt);
         }
         let verlet = scene.sim.integrator == Integrator::Verlet;
         let bounds_exchange = !(verlet && is_always_stable(cloth, &scene.sim));
-        Self { fixed, grid: springs.grid, distance, spheres: scene.spheres.clone(), bounds_exchange }
+        let spheres = scene.spheres().cloned().collect();
+        Self { fixed, grid: springs.grid, distance, spheres, bounds_exchange }
     }
 
     /// The budget of a cloth that starts at `x` with `energy`.
