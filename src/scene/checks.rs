@@ -181,11 +181,11 @@ impl Checks<'_> {
 
     fn object_count(&mut self) {
         let scene = self.scene;
-        let count = usize::from(scene.cloth.is_some()) + scene.planes.len() + scene.spheres.len();
+        let count = scene.materials().count();
         if count <= MAX_OBJECTS {
             return;
         }
-        let key = if scene.planes.len() > scene.spheres.len() { "plane" } else { "sphere" };
+        let key = if scene.planes().count() > scene.spheres().count() { "plane" } else { "sphere" };
         let place = self.span(key).map(Span::first);
         let finding = Finding::new("scene::too_many_objects", format!("{count} objects are too many"))
             .key(key)

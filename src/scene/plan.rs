@@ -101,8 +101,9 @@ impl Plan {
                 | note(items, "shearing springs", spring(scene, "shearing", |c| c.enable_shearing))
                 | note(items, "bending springs", spring(scene, "bending", |c| c.enable_bending));
         let collides_itself = note(items, "self-collision", self_collision(scene));
-        let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes.len()));
-        let spheres = note(items, "collision with spheres", collision(scene, "sphere", scene.spheres.len()));
+        let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes().count()));
+        let spheres =
+            note(items, "collision with spheres", collision(scene, "sphere", scene.spheres().count()));
         let limited = note(items, "stretch limit", stretch_limit(scene, any_spring));
         let drawn = drawn(scene);
         let objects = drawn.iter().map(|(name, material)| object(name, material, items)).collect();
@@ -190,18 +191,15 @@ fn stretch_limit(scene: &Scene, any_spring: bool) -> Decision {
 /// The drawn objects by name, in draw order.
 fn drawn(scene: &Scene) -> Vec<(String, &Material)> {
     let cloth = scene.cloth.iter().map(|cloth| ("cloth".into(), &cloth.material));
-    let planes = numbered("plane", scene.planes.iter().map(|plane| &plane.material));
-    let spheres = numbered("sphere", scene.spheres.iter().map(|sphere| &sphere.material));
-    cloth.chain(planes).chain(spheres).collect()
+    let colliders = (0..scene.colliders.len()).map(|i| (name(scene, i), scene.colliders[i].material()));
+    cloth.chain(colliders).collect()
 }
 
-fn numbered<'a>(
-    kind: &str,
-    materials: impl ExactSizeIterator<Item = &'a Material>,
-) -> impl Iterator<Item = (String, &'a Material)> {
-    let several = materials.len() > 1;
-    let name = move |i| if several { format!("{kind}.{i}") } else { kind.to_owned() };
-    materials.enumerate().map(move |(i, material)| (name(i), material))
+/// The dotted path of collider `i`: its kind, with a number if there are several of that kind.
+fn name(scene: &Scene, i: usize) -> String {
+    let kind = scene.colliders[i].kind();
+    let before = |end| scene.colliders[..end].iter().filter(|other| other.kind() == kind).count();
+    if before(scene.colliders.len()) > 1 { format!("{kind}.{}", before(i)) } else { kind.into() }
 }
 
 fn object(name: &str, material: &Material, items: &mut Vec<Item>) -> ObjectPlan {

@@ -93,8 +93,8 @@ impl Info {
             time: scene.render.time,
             frames: frame_at(None, scene),
             cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
-            planes: scene.planes.len(),
-            spheres: scene.spheres.len(),
+            planes: scene.planes().count(),
+            spheres: scene.spheres().count(),
             memory: Memory::of(scene),
             needs: Plan::of(scene).items,
         })

@@ -41,7 +41,7 @@ fn cloth_parameters(cloth: &Cloth) -> String {
 /// How the objects are drawn.
 fn looks(scene: &Scene) -> Vec<String> {
     let cloth = scene.cloth.as_ref().map(|cloth| &cloth.material);
-    let Some(material) = cloth.or(scene.spheres.first().map(|sphere| &sphere.material)) else {
+    let Some(material) = cloth.or(scene.spheres().next().map(|sphere| &sphere.material)) else {
         return Vec::new();
     };
     let Material { shader, ka, kd, ks, normal_scaling, height_scaling, .. } = material;
@@ -56,7 +56,7 @@ fn looks(scene: &Scene) -> Vec<String> {
         let color = scene.light.color;
         parts.push(format!("light ({}, {}, {})", color.x, color.y, color.z));
     }
-    let balls = scene.spheres.iter().map(|sphere| sphere.resolution);
+    let balls = scene.spheres().map(|sphere| sphere.resolution);
     parts.extend(balls.map(|[latitudes, longitudes]| format!("ball of {latitudes} × {longitudes} cells")));
     parts
 }

@@ -11,8 +11,8 @@ use drape::simulation::Simulation;
 /// Every phase at once: a folded cloth that falls on a ball and on the floor.
 fn everything() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
-    scene.planes[0].point.y = 0.35;
+    scenes::add_plane(&mut scene, scenes::floor());
+    scenes::plane_mut(&mut scene).point.y = 0.35;
     let cloth = scene.cloth.as_mut().unwrap();
     (cloth.num_width_points, cloth.num_height_points, cloth.thickness) = (16, 16, 0.03);
     cloth.pinned = vec![[0, 0], [5, 7]];

@@ -227,10 +227,10 @@ impl<'a> Cloth<'a> {
     fn objects(&mut self) {
         for p in 0..self.x.len() {
             if !self.pinned[p] {
-                for plane in &self.scene.planes {
+                for plane in self.scene.planes() {
                     self.plane(p, plane);
                 }
-                for sphere in &self.scene.spheres {
+                for sphere in self.scene.spheres() {
                     self.sphere(p, sphere);
                 }
             }

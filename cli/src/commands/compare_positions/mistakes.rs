@@ -5,7 +5,7 @@ use std::num::Wrapping;
 use drape::cloth::Points;
 use drape::cloth::springs::SpringKind;
 use drape::error::Result;
-use drape::scene::{Cloth, Orientation, Scene, SelfCollision};
+use drape::scene::{Cloth, Collider, Orientation, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
 /// A mistake, and the simulation that does what the mistaken program does.
@@ -62,7 +62,7 @@ pub(crate) fn all(scene: &Scene) -> Vec<Mistake> {
     if cloth.enable_bending && cloth.ks > 0.0 {
         mistakes.extend(bending(scene, cloth.ks));
     }
-    if !scene.planes.is_empty() {
+    if scene.planes().next().is_some() {
         mistakes.extend(plane_offsets(scene));
     }
     if scene.sim.self_collision == SelfCollision::SameBox {
@@ -113,8 +113,8 @@ fn scenes(scene: &Scene) -> Vec<Mistake> {
             scene.sim.self_collision = SelfCollision::Neighbors;
         }),
         with("friction f where 1 - f belongs", |scene| {
-            scene.planes.iter_mut().for_each(|plane| plane.friction = 1.0 - plane.friction);
-            scene.spheres.iter_mut().for_each(|sphere| sphere.friction = 1.0 - sphere.friction);
+            let frictions = scene.colliders.iter_mut().map(Collider::friction_mut);
+            frictions.for_each(|friction| *friction = 1.0 - *friction);
         }),
     ]
 }

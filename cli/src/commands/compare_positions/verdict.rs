@@ -245,8 +245,11 @@ impl Case<'_> {
         let touched = counters.object_moves > 0;
         let acted = [
             (counters.self_collision_moves > 0, "self-collision (order of points, of boxes)"),
-            (touched && !self.scene.planes.is_empty(), "collision with planes (its side, friction)"),
-            (touched && !self.scene.spheres.is_empty(), "collision with spheres (friction, the centre)"),
+            (touched && self.scene.planes().next().is_some(), "collision with planes (its side, friction)"),
+            (
+                touched && self.scene.spheres().next().is_some(),
+                "collision with spheres (friction, the centre)",
+            ),
             (counters.springs_limited > 0, "the stretch limit (its order, pinned ends)"),
         ];
         let names: Vec<&str> = acted.iter().filter(|(acted, _)| *acted).map(|(_, name)| *name).collect();
