@@ -69,7 +69,7 @@ impl Colliders {
         let kept_outside = (contact == Contact::Outside).then_some(x);
         let plane = |plane| Ok((ColliderKind::Plane, Collider::Plane(Plane::new(plane, kept_outside)?)));
         let sphere = |sphere: &Sphere| Ok((ColliderKind::Sphere, Collider::Sphere(sphere.clone())));
-        let list = scene.planes.iter().map(plane).chain(scene.spheres.iter().map(sphere));
+        let list = scene.planes().map(plane).chain(scene.spheres().map(sphere));
         Ok(Self { list: list.collect::<Result<_>>()?, contact })
     }
 
