@@ -56,7 +56,7 @@ fn collide(simulation: &mut Simulation, ring: &Ring) -> Result<usize> {
 
 fn main() -> Result<()> {
     let mut scene = load_stock(Path::new("scenes/sphere.json"), &Overrides::default())?.scene;
-    scene.spheres.clear();
+    scene.colliders.clear();
     let ring = Ring { center: Vec3::new(0.5, 0.7, 0.5), radius: 0.3, tube: 0.05 };
     let mut simulation = Simulation::new(&scene)?;
     for frame in 1..=135 {
@@ -67,7 +67,10 @@ fn main() -> Result<()> {
         }
         if frame % 15 == 0 {
             let lowest = simulation.positions().y.iter().copied().fold(f64::INFINITY, f64::min);
-            println!("{:.2} s: {touching:3} points touch the ring, the lowest is at {lowest:.3} m", simulation.time());
+            println!(
+                "{:.2} s: {touching:3} points touch the ring, the lowest is at {lowest:.3} m",
+                simulation.time()
+            );
         }
     }
     Ok(())

@@ -1,15 +1,92 @@
 //! The colliders: what the cloth falls on.
 
+use std::ops::{Index, IndexMut};
+
+use serde::{Serialize, Serializer};
+
 use super::{Material, Vec3};
 
-/// Something that the cloth collides with. A scene lists the planes first, then the spheres, each in
-/// file order: that is the order in which the method handles and draws them.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Collider {
+/// The list of colliders: a row is a kind with its key in a scene file and the plural of its name, in the
+/// order in which the method handles and draws them. Everything that differs from kind to kind is a `match`
+/// without a wildcard elsewhere, so the compiler names what a new row needs.
+macro_rules! colliders {
+    ($($(#[$doc:meta])* $kind:ident = $key:literal, $plural:literal;)*) => {
+        /// Something that the cloth collides with.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Collider {
+            $($(#[$doc])* $kind($kind),)*
+        }
+
+        /// A kind of collider.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum ColliderKind {
+            $($(#[$doc])* $kind,)*
+        }
+
+        impl ColliderKind {
+            /// Every kind, in the order in which the method handles and draws them.
+            pub const ALL: &[Self] = &[$(Self::$kind),*];
+
+            /// The key of a scene file under which colliders of this kind stand.
+            pub fn key(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $key,)*
+                }
+            }
+
+            /// The name of several of them: also that of their entry in the energy ledger.
+            pub fn plural(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $plural,)*
+                }
+            }
+        }
+
+        impl Collider {
+            /// Its kind.
+            pub fn kind(&self) -> ColliderKind {
+                match self {
+                    $(Self::$kind(_) => ColliderKind::$kind,)*
+                }
+            }
+
+            /// What it looks like.
+            pub fn material(&self) -> &Material {
+                match self {
+                    $(Self::$kind(collider) => &collider.material,)*
+                }
+            }
+
+            /// What it looks like, to be changed.
+            pub fn material_mut(&mut self) -> &mut Material {
+                match self {
+                    $(Self::$kind(collider) => &mut collider.material,)*
+                }
+            }
+
+            /// Part of the sliding that contact takes away (0..=1), to be changed.
+            pub fn friction_mut(&mut self) -> &mut f64 {
+                match self {
+                    $(Self::$kind(collider) => &mut collider.friction,)*
+                }
+            }
+
+            /// Whether the cloth meets both alike: all but what pictures show is equal.
+            pub fn collides_like(&self, other: &Self) -> bool {
+                match (self, other) {
+                    $((Self::$kind(a), Self::$kind(b)) => a.collides_like(b),)*
+                    _ => false,
+                }
+            }
+        }
+    };
+}
+
+colliders! {
     /// An infinite plane.
-    Plane(Plane),
+    Plane = "plane", "planes";
     /// A ball.
-    Sphere(Sphere),
+    Sphere = "sphere", "spheres";
 }
 
 /// An infinite plane that the cloth collides with, drawn as a square of 4 m.
@@ -23,6 +100,12 @@ pub struct Plane {
     pub friction: f64,
     /// What the plane looks like.
     pub material: Material,
+}
+
+impl Plane {
+    fn collides_like(&self, other: &Self) -> bool {
+        Self { material: self.material.clone(), ..other.clone() } == *self
+    }
 }
 
 /// A ball that the cloth collides with.
@@ -41,55 +124,40 @@ pub struct Sphere {
     pub material: Material,
 }
 
-impl Collider {
-    /// The key of a scene file under which colliders of this kind stand.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Plane(_) => "plane",
-            Self::Sphere(_) => "sphere",
-        }
+impl Sphere {
+    fn collides_like(&self, other: &Self) -> bool {
+        Self { material: self.material.clone(), resolution: self.resolution, ..other.clone() } == *self
     }
+}
 
-    /// What it looks like.
-    pub fn material(&self) -> &Material {
-        match self {
-            Self::Plane(plane) => &plane.material,
-            Self::Sphere(sphere) => &sphere.material,
-        }
+/// A value for each kind of collider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PerKind<T>([T; ColliderKind::ALL.len()]);
+
+impl<T: Copy> PerKind<T> {
+    /// Each value with the plural of its kind's name.
+    pub fn entries(self) -> impl Iterator<Item = (&'static str, T)> {
+        ColliderKind::ALL.iter().map(move |&kind| (kind.plural(), self[kind]))
     }
+}
 
-    /// What it looks like, to be changed.
-    pub fn material_mut(&mut self) -> &mut Material {
-        match self {
-            Self::Plane(plane) => &mut plane.material,
-            Self::Sphere(sphere) => &mut sphere.material,
-        }
+impl<T> Index<ColliderKind> for PerKind<T> {
+    type Output = T;
+
+    fn index(&self, kind: ColliderKind) -> &T {
+        &self.0[kind as usize]
     }
+}
 
-    /// Part of the sliding that contact takes away (0..=1).
-    pub fn friction(&self) -> f64 {
-        match self {
-            Self::Plane(plane) => plane.friction,
-            Self::Sphere(sphere) => sphere.friction,
-        }
+impl<T> IndexMut<ColliderKind> for PerKind<T> {
+    fn index_mut(&mut self, kind: ColliderKind) -> &mut T {
+        &mut self.0[kind as usize]
     }
+}
 
-    /// The same, to be changed.
-    pub fn friction_mut(&mut self) -> &mut f64 {
-        match self {
-            Self::Plane(plane) => &mut plane.friction,
-            Self::Sphere(sphere) => &mut sphere.friction,
-        }
-    }
-
-    /// Whether the cloth meets both alike: all but what pictures show is equal.
-    pub fn collides_like(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Plane(a), Self::Plane(b)) => Plane { material: a.material.clone(), ..b.clone() } == *a,
-            (Self::Sphere(a), Self::Sphere(b)) => {
-                Sphere { material: a.material.clone(), resolution: a.resolution, ..b.clone() } == *a
-            }
-            (Self::Plane(_) | Self::Sphere(_), _) => false,
-        }
+/// As an object with the plurals as keys.
+impl<T: Copy + Serialize> Serialize for PerKind<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.entries())
     }
 }

@@ -32,7 +32,7 @@ mod words;
 use nalgebra::Vector3;
 
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
-pub use collider::{Collider, Plane, Sphere};
+pub use collider::{Collider, ColliderKind, PerKind, Plane, Sphere};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
 pub use schema::schema;
@@ -63,7 +63,7 @@ impl Scene {
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
         self.colliders.iter().filter_map(|collider| match collider {
             Collider::Plane(plane) => Some(plane),
-            Collider::Sphere(_) => None,
+            _ => None,
         })
     }
 
@@ -71,8 +71,15 @@ impl Scene {
     pub fn spheres(&self) -> impl Iterator<Item = &Sphere> {
         self.colliders.iter().filter_map(|collider| match collider {
             Collider::Sphere(sphere) => Some(sphere),
-            Collider::Plane(_) => None,
+            _ => None,
         })
+    }
+
+    /// How many colliders there are of each kind.
+    pub fn collider_counts(&self) -> PerKind<usize> {
+        let mut counts = PerKind::default();
+        self.colliders.iter().for_each(|collider| counts[collider.kind()] += 1);
+        counts
     }
 
     /// What each drawn object looks like, in draw order: the cloth, then the colliders.
