@@ -37,24 +37,15 @@
 //! of -0.0 leaves the same positions, and a spring that is absent may be added as a zero.
 
 pub(crate) mod accumulate;
-mod boxes;
 pub(crate) mod chunks;
-pub(crate) mod collide;
-pub(crate) mod contact;
 mod counters;
 pub(crate) mod forces;
 pub mod grid;
-pub(crate) mod neighbors;
-mod one_box;
 mod params;
 mod points;
 pub(crate) mod real;
-pub(crate) mod self_collision;
-mod sorted;
 pub mod springs;
 pub(crate) mod stretch_limit;
-
-use chunks as pieces;
 
 pub use counters::Counters;
 pub use params::{Params, damping_rate};

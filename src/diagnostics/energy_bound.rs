@@ -15,7 +15,7 @@
 //!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
 //!   points together; but where neighbours start too close, nothing did: for each such point
 //!   `m (2 thickness - l)² / (2 T dt²)`;
-//! - a plane puts a point [`SURFACE_OFFSET`] above it: `M (offset / dt)² / 2`;
+//! - a plane puts a point at a small offset above it: `M (offset / dt)² / 2`;
 //! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
 //! - rounding.
 //!
@@ -34,11 +34,10 @@
 use super::energy::Energy;
 use super::ledger::Ledger;
 use super::stability::is_bounded_and_always_stable;
-use crate::cloth::collide::SURFACE_OFFSET;
 use crate::cloth::grid::Grid;
 use crate::cloth::springs::Springs;
 use crate::cloth::{Params, Points, len};
-use crate::scene::{Cloth, Scene, SelfCollision, Sphere};
+use crate::scene::{Cloth, Scene, SelfCollision, Vec3};
 
 /// Largest coordinate, in metres: as large as any number that a scene may hold.
 pub(crate) const RANGE: f64 = 1e15;
@@ -54,14 +53,14 @@ pub(crate) struct Allowance {
     grid: Grid,
     /// Distance that self-collision keeps, in metres; 0 without it.
     distance: f64,
-    spheres: Vec<Sphere>,
     /// Whether what springs and gravity put in is bounded, too.
     bounds_exchange: bool,
 }
 
 impl Allowance {
-    /// The allowance of the cloth of `scene`, which has `springs`.
-    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params) -> Self {
+    /// The allowance of the cloth of `scene`, which has `springs` and is put at most `lift`, in metres,
+    /// beyond the surface of an object.
+    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params, lift: f64) -> Self {
         let Params { mass, dt, .. } = *params;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
         let distance = match scene.sim.self_collision {
@@ -70,24 +69,29 @@ impl Allowance {
         };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
         fixed += motion(all, distance / params.steps_per_frame / dt) + stretched_to(distance, springs);
-        if !scene.planes.is_empty() {
-            fixed += motion(all, SURFACE_OFFSET / dt);
-        }
+        fixed += motion(all, lift / dt);
         let bounds_exchange = !is_bounded_and_always_stable(cloth, &scene.sim);
-        Self { fixed, grid: springs.grid, distance, spheres: scene.spheres.clone(), bounds_exchange }
+        Self { fixed, grid: springs.grid, distance, bounds_exchange }
     }
 
-    /// The bound of a cloth that starts at `x` with `energy`.
-    pub(crate) fn energy_bound(&self, x: &Points, energy: Energy, params: &Params) -> EnergyBound {
+    /// The bound of a cloth that starts at `x` with `energy`. Each of `depths` is how far one step moves
+    /// a point that starts inside an object at the place given, in metres.
+    pub(crate) fn energy_bound(
+        &self,
+        x: &Points,
+        energy: Energy,
+        params: &Params,
+        depths: impl Iterator<Item = impl Fn(Vec3) -> f64>,
+    ) -> EnergyBound {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
         let Params { dt, steps_per_frame, .. } = *params;
         for p in 0..x.len() {
             let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
             allowance += motion(params.mass, depth / (dt * steps_per_frame.sqrt()));
         }
-        for sphere in &self.spheres {
-            let depth = |p| (sphere.radius - len(x.get(p) - sphere.origin)).max(0.0);
-            allowance += (0..x.len()).map(|p| motion(params.mass, depth(p) / params.dt)).sum::<f64>();
+        for depth in depths {
+            let energies = (0..x.len()).map(|p| motion(params.mass, depth(x.get(p)) / dt));
+            allowance += energies.sum::<f64>();
         }
         EnergyBound { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
     }

@@ -4,6 +4,7 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::{Params, Points, dot};
+use crate::collision::ColliderKind;
 use crate::diagnostics::energy::{Energy, spring_energy};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
@@ -92,10 +93,17 @@ impl Observer for LedgerRecorder {
             Phase::Forces => return,
             Phase::Integration => return self.record_integration(cloth),
             Phase::SelfCollision => |ledger| &mut ledger.self_collision,
-            Phase::Planes | Phase::LeavePlanes => |ledger| &mut ledger.planes,
-            Phase::Spheres | Phase::LeaveSpheres => |ledger| &mut ledger.spheres,
+            Phase::Collision(kind) | Phase::Depenetration(kind) => entry_of(kind),
             Phase::StretchLimit => |ledger| &mut ledger.stretch_limit,
         };
         self.record_correction(cloth.energy(), entry);
+    }
+}
+
+/// The entry of the objects of a kind.
+fn entry_of(kind: ColliderKind) -> fn(&mut Ledger) -> &mut f64 {
+    match kind {
+        ColliderKind::Plane => |ledger| &mut ledger.planes,
+        ColliderKind::Sphere => |ledger| &mut ledger.spheres,
     }
 }

@@ -1,5 +1,7 @@
 //! The phases of a step.
 
+use crate::collision::ColliderKind;
+
 /// A phase of a step, in the order in which they come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phase {
@@ -9,14 +11,10 @@ pub(super) enum Phase {
     Integration,
     /// 3: close points of the cloth move apart.
     SelfCollision,
-    /// 4: points that went through a plane are put back.
-    Planes,
-    /// 4: points that went into a sphere are put back.
-    Spheres,
+    /// 4: points that hit an object of a kind are put back on its surface.
+    Collision(ColliderKind),
     /// 5: springs that are too long are shortened.
     StretchLimit,
-    /// After the step: points that are still behind a plane leave it.
-    LeavePlanes,
-    /// After the step: points that are still inside a sphere leave it.
-    LeaveSpheres,
+    /// At the end: points that are still inside an object of a kind are put outside.
+    Depenetration(ColliderKind),
 }

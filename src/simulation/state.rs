@@ -1,20 +1,18 @@
 //! The state of a cloth, and the phases of a step that change it.
 
 use super::phase::Phase;
-use crate::cloth::collide::Objects;
-use crate::cloth::contact::Outside;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
-use crate::cloth::neighbors::Neighbors;
-use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Counters, Model, Params, Points};
+use crate::collision::self_collision::SelfCollision;
+use crate::collision::{ColliderKind, Colliders};
 use crate::diagnostics::energy::Energy;
 use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
 use crate::integrator::{self, Integrator};
-use crate::scene::{Cloth, Plan, Scene, SelfCollision as Mode, Sim, Start};
+use crate::scene::{Plan, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]
@@ -26,36 +24,15 @@ pub(super) struct State {
     pub(super) x: Points,
     pub(super) last: Points,
     pub(super) integrator: Box<dyn Integrator>,
-    pub(super) self_collision: Option<PairSearch>,
-    pub(super) objects: Option<Objects>,
+    pub(super) self_collision: Option<SelfCollision>,
+    pub(super) colliders: Colliders,
     stretch_limit: Option<StretchLimit>,
-    outside: Option<Outside>,
     /// What the phases of this step did so far.
     pub(super) work: Counters,
     pub(super) allowance: Allowance,
     pub(super) energy_bound: EnergyBound,
     /// Positions, last positions and what the integrator remembers, where the frame began.
     pub(super) frame_start: Vec<Points>,
-}
-
-/// How close points of the cloth are found.
-#[derive(Clone, Debug)]
-pub(super) enum PairSearch {
-    /// Those that share a box.
-    SameBox(SelfCollision),
-    /// All.
-    Neighbors(Neighbors),
-}
-
-impl PairSearch {
-    /// The search that `mode` asks for.
-    fn new(mode: Mode, cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Option<Self>> {
-        Ok(match mode {
-            Mode::SameBox => Some(Self::SameBox(SelfCollision::new(cloth, sim, grid, x)?)),
-            Mode::Neighbors => Some(Self::Neighbors(Neighbors::new(cloth, sim, x)?)),
-            Mode::Off => None,
-        })
-    }
 }
 
 impl State {
@@ -75,19 +52,19 @@ impl State {
         let params = Params::new(cloth, sim);
         let limit = |limit| StretchLimit::new(limit, sim.stretch_passes, &springs);
         let integrator = integrator::create(cloth, sim, &springs)?;
+        let colliders = Colliders::new(scene, &x)?;
         let mut state = Self {
             params,
             grid,
             pins: Pins::new(cloth, grid)?,
             last,
-            self_collision: PairSearch::new(plan.self_collision, cloth, sim, grid, &x)?,
-            objects: (plan.planes || plan.spheres).then(|| Objects::new(scene)),
-            outside: plan.kept_outside.then(|| Outside::new(scene, &x)).transpose()?,
+            self_collision: SelfCollision::new(plan.self_collision, cloth, sim, grid, &x)?,
             stretch_limit: plan.stretch_limit.map(limit).transpose()?,
             work: Counters::default(),
             energy_bound: EnergyBound::default(),
             frame_start: vec![Points::zeros(grid.len())?; 2 + integrator.memory().len()],
-            allowance: Allowance::new(scene, cloth, &springs, &params),
+            allowance: Allowance::new(scene, cloth, &springs, &params, colliders.lift()),
+            colliders,
             integrator,
             springs,
             x,
@@ -114,7 +91,8 @@ impl State {
 
     /// Takes the state as the start that the energy is held against.
     pub(super) fn set_energy_bound(&mut self) {
-        self.energy_bound = self.allowance.energy_bound(&self.x, self.energy(), &self.params);
+        let (energy, depths) = (self.energy(), self.colliders.depths());
+        self.energy_bound = self.allowance.energy_bound(&self.x, energy, &self.params, depths);
     }
 
     /// The energies.
@@ -128,9 +106,9 @@ impl State {
             Phase::Forces => self.integrator.has_force_phase(),
             Phase::Integration => true,
             Phase::SelfCollision => self.self_collision.is_some(),
-            Phase::Planes | Phase::Spheres => self.objects.is_some(),
+            Phase::Collision(_) => !self.colliders.is_empty(),
             Phase::StretchLimit => self.stretch_limit.is_some(),
-            Phase::LeavePlanes | Phase::LeaveSpheres => self.outside.is_some(),
+            Phase::Depenetration(_) => self.colliders.keep_outside(),
         }
     }
 
@@ -145,24 +123,13 @@ impl State {
     }
 
     pub(super) fn collide_with_itself(&mut self) {
-        let Self { x, pins, work, .. } = self;
-        match &mut self.self_collision {
-            Some(PairSearch::SameBox(self_collision)) => self_collision.apply(x, pins, work),
-            Some(PairSearch::Neighbors(neighbors)) => neighbors.apply(x, pins, work),
-            None => {}
+        if let Some(self_collision) = &mut self.self_collision {
+            self_collision.apply(&mut self.x, &self.pins, &mut self.work);
         }
     }
 
-    pub(super) fn collide_with_planes(&mut self) {
-        if let Some(objects) = &self.objects {
-            objects.collide_planes(&mut self.x, &self.last, &self.pins, &mut self.work);
-        }
-    }
-
-    pub(super) fn collide_with_spheres(&mut self) {
-        if let Some(objects) = &self.objects {
-            objects.collide_spheres(&mut self.x, &self.last, &self.pins, &mut self.work);
-        }
+    pub(super) fn collide_with(&mut self, kind: ColliderKind) {
+        self.colliders.resolve(kind, &mut self.x, &self.last, &self.pins, &mut self.work);
     }
 
     pub(super) fn limit_stretch(&mut self) {
@@ -171,15 +138,9 @@ impl State {
         }
     }
 
-    pub(super) fn leave_planes(&mut self) {
-        if let Some(outside) = &self.outside {
-            outside.leave_planes(&mut self.x, &self.pins, &mut self.work);
-        }
-    }
-
-    pub(super) fn leave_spheres(&mut self) {
-        if let Some(outside) = &self.outside {
-            outside.leave_spheres(&mut self.x, &self.pins, &mut self.work);
+    pub(super) fn depenetrate(&mut self, kind: ColliderKind) {
+        if self.colliders.keep_outside() {
+            self.colliders.depenetrate(kind, &mut self.x, &self.pins, &mut self.work);
         }
     }
 }

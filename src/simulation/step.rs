@@ -4,6 +4,7 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::Counters;
+use crate::collision::ColliderKind;
 
 impl State {
     /// Makes a step. The phases after the integration change positions and never `last`.
@@ -23,21 +24,21 @@ impl State {
         self.collide_with_itself();
         observer.after(Phase::SelfCollision, self);
 
-        // 4. Objects: points that went through a plane or into a sphere are put back.
-        self.collide_with_planes();
-        observer.after(Phase::Planes, self);
-        self.collide_with_spheres();
-        observer.after(Phase::Spheres, self);
+        // 4. Objects: points that hit one are put back on its surface.
+        for kind in ColliderKind::ALL {
+            self.collide_with(kind);
+            observer.after(Phase::Collision(kind), self);
+        }
 
         // 5. Stretch limit: springs that are too long are shortened.
         self.limit_stretch();
         observer.after(Phase::StretchLimit, self);
 
-        // Where the scene asks for it: points that are inside an object after all this leave it.
-        self.leave_planes();
-        observer.after(Phase::LeavePlanes, self);
-        self.leave_spheres();
-        observer.after(Phase::LeaveSpheres, self);
+        // Where the scene asks for it: points that are inside an object after all this are put outside.
+        for kind in ColliderKind::ALL {
+            self.depenetrate(kind);
+            observer.after(Phase::Depenetration(kind), self);
+        }
 
         observer.after_step(self);
     }

@@ -46,7 +46,7 @@ impl Observer for Timing {
             Phase::Integration if cloth.has(Phase::Forces) => &mut timings.verlet,
             Phase::Integration => &mut timings.solver,
             Phase::SelfCollision => &mut timings.self_collision,
-            Phase::Planes | Phase::Spheres | Phase::LeavePlanes | Phase::LeaveSpheres => &mut timings.objects,
+            Phase::Collision(_) | Phase::Depenetration(_) => &mut timings.objects,
             Phase::StretchLimit => &mut timings.stretch_limit,
         } += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
         self.since = Some(now);

@@ -1,75 +1,61 @@
-//! Self-collision within one box: its members, moved apart one after the other.
+//! Self-collision within one cell: its members, moved apart one after the other.
 
 use std::array;
 use std::iter;
 
-use super::Points;
+use super::separation::{Pushes, Separation};
+use crate::cloth::Points;
 use crate::scene::Vec3;
-
-/// Just above 1: covers the rounding of a squared length, so that no close pair is overlooked.
-const MARGIN: f64 = 1.0 + 1e-12;
 
 /// Points whose distances are compared at once.
 const LANES: usize = 4;
 
-/// Places after those of a box that hold [`NOWHERE`], so that its last points are compared in the
+/// Slots after those of a cell that hold [`FAR_AWAY`], so that its last points are compared in the
 /// same way as the others.
-pub(crate) const ROOM: usize = LANES - 1;
+pub(super) const PADDING: usize = LANES - 1;
 
 /// A coordinate that is close to no other.
-const NOWHERE: f64 = f64::INFINITY;
+const FAR_AWAY: f64 = f64::INFINITY;
 
-/// When and how far points move apart.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Rule {
-    /// Distance that two points keep, in metres: 2 · thickness.
-    distance: f64,
-    /// A squared distance that no closer pair exceeds, in m².
-    reach: f64,
-    /// Steps per frame.
-    steps_per_frame: f64,
-}
-
-impl Rule {
-    /// The rule for points that keep `distance`, in metres, over so many steps per frame.
-    pub(crate) fn new(distance: f64, steps_per_frame: f64) -> Self {
-        Self { distance, reach: distance * distance * MARGIN, steps_per_frame }
-    }
-}
-
-/// The members of a box, in index order, and where they are.
-pub(crate) struct OneBox<'a> {
+/// The members of a cell, in index order, and where they are.
+pub(super) struct Cell<'a> {
     members: &'a [usize],
-    rule: Rule,
+    rule: Separation,
     x: &'a mut [f64],
     y: &'a mut [f64],
     z: &'a mut [f64],
 }
 
-impl<'a> OneBox<'a> {
-    /// The box of `members`, whose places (as many, and [`ROOM`] more) are filled with their positions from `x`.
+impl<'a> Cell<'a> {
+    /// The cell of `members`, whose slots (as many, and [`PADDING`] more) are filled with their
+    /// positions from `x`.
     #[inline(always)]
-    pub(crate) fn gather(members: &'a [usize], rule: Rule, x: &Points, places: [&'a mut [f64]; 3]) -> Self {
+    pub(super) fn load(
+        members: &'a [usize],
+        rule: Separation,
+        x: &Points,
+        slots: [&'a mut [f64]; 3],
+    ) -> Self {
         // The compiler sees here that all three are equally long.
-        let [px, py, pz] = places;
+        let [px, py, pz] = slots;
         let n = px.len();
         let (py, pz) = (&mut py[..n], &mut pz[..n]);
         for (to, &p) in members.iter().enumerate() {
             (px[to], py[to], pz[to]) = (x.x[p], x.y[p], x.z[p]);
         }
-        px[members.len()..].fill(NOWHERE);
+        px[members.len()..].fill(FAR_AWAY);
         Self { members, rule, x: px, y: py, z: pz }
     }
 
     /// Whether two members may be too close.
     #[inline(always)]
-    pub(crate) fn any_close(&self) -> bool {
+    pub(super) fn any_close(&self) -> bool {
         (0..self.members.len()).any(|at| self.is_close_to_later(at))
     }
 
     /// Moves the unpinned members apart, one after the other; how many moved.
     #[inline(always)]
-    pub(crate) fn move_apart(&mut self, pinned: &[bool]) -> u64 {
+    pub(super) fn separate(&mut self, pinned: &[bool]) -> u64 {
         let mut moves = 0;
         for (at, _) in self.members.iter().enumerate().filter(|&(_, &p)| !pinned[p]) {
             if let Some(position) = self.corrected(at) {
@@ -81,9 +67,6 @@ impl<'a> OneBox<'a> {
     }
 
     /// Whether the member `at` may be too close to one after it.
-    ///
-    /// A pair that is too close never exceeds `reach`: its squared length is below (2 ·
-    /// thickness)² but for the rounding of two squares and a root, far less than [`MARGIN`].
     #[inline(always)]
     fn is_close_to_later(&self, at: usize) -> bool {
         let within =
@@ -91,22 +74,17 @@ impl<'a> OneBox<'a> {
         self.squares(at, at + 1).any(within)
     }
 
-    /// Where the member `at` belongs; nothing when it may stay.
+    /// Where the member `at` belongs; `None` when it may stay.
     #[inline(always)]
     fn corrected(&self, at: usize) -> Option<Vec3> {
-        let Rule { distance, reach, steps_per_frame } = self.rule;
         let position = self.position(at);
-        let (mut sum, mut count) = (Vec3::zeros(), 0.0);
+        let mut pushes = Pushes::default();
         for (first, squares) in (0..).step_by(LANES).zip(self.squares(at, 0)) {
-            for i in within(&squares, reach, at.wrapping_sub(first)) {
-                let l = squares[i].sqrt();
-                if 0.0 < l && l < distance {
-                    sum += (position - self.position(first + i)) * ((distance - l) / l);
-                    count += 1.0;
-                }
+            for i in within(&squares, self.rule.reach, at.wrapping_sub(first)) {
+                pushes.add(position - self.position(first + i), &self.rule);
             }
         }
-        (count > 0.0).then(|| position + sum * (1.0 / count / steps_per_frame))
+        self.rule.corrected(position, &pushes)
     }
 
     /// Where the member `at` is.

@@ -1,43 +1,41 @@
-//! The cure for pairs that self-collision never sees across the border of a box
-//! (`sim.self_collision` = `neighbors`): every point looks into its own box and the 26 around it.
+//! The cure for pairs that self-collision never sees across the border of a cell
+//! (`sim.self_collision` = `neighbors`): every point is compared with those in its own cell and in
+//! the 26 around it.
 //!
-//! A box is so large that two points which come closer than twice the thickness during the
-//! phase lie in neighbouring boxes when it begins: a point moves at most `2 thickness / T` in it. So
+//! A cell is so large that two points which come closer than twice the thickness during the
+//! phase lie in neighbouring cells when it begins: a point moves at most `2 thickness / T` in it. So
 //! the phase does what comparing each point with every other does, to the last bit. Points move
-//! one after the other in index order, by the report's rule. Measured on the stock selfCollision
-//! scene over 110 frames: no two points come closer than 11.6 mm (19 mm are asked for), where the
-//! search in one box lets them come to 1.1 mm; it takes five times as long.
+//! one after the other in index order, by the published method's rule. Measured on the stock
+//! selfCollision scene over 110 frames: no two points come closer than 11.6 mm (19 mm are asked for),
+//! where the search in one cell lets them come to 1.1 mm; it takes five times as long.
 
 use std::array;
 use std::ops::Range;
 
-use super::boxes::Boxes;
-use super::grid::Pins;
-use super::{Counters, Points, dot, filled};
+use super::cell_list::CellKey;
+use super::separation::{Pushes, Separation};
+use super::uniform_grid::UniformGrid;
+use crate::cloth::grid::Pins;
+use crate::cloth::{Counters, Points, dot, filled};
 use crate::error::Result;
 use crate::scene::{Cloth, Sim, Vec3};
 
-/// Just above 1: covers the rounding of a squared length and of a box number.
+/// Just above 1: covers the rounding of a cell number too; see [`Separation::new`].
 const MARGIN: f64 = 1.0 + 1e-6;
 
-/// The points around a box: for each of its nine columns of three boxes, a range of the order.
+/// The points around a cell: for each of its nine columns of three cells, a range of the order.
 type Around = [Range<usize>; 9];
 
 /// Self-collision with all points that are near.
 #[derive(Clone, Debug)]
 pub(crate) struct Neighbors {
-    /// Distance that two points keep, in metres: 2 · thickness.
-    distance: f64,
-    /// A squared distance that no closer pair exceeds, in m².
-    reach: f64,
-    /// Steps per frame.
-    steps_per_frame: f64,
-    /// The points by box.
-    boxes: Boxes,
-    /// Of each occupied box, the points around it.
+    rule: Separation,
+    /// The points by cell.
+    grid: UniformGrid,
+    /// Of each occupied cell, the points around it.
     around: Vec<Around>,
-    /// Of each point, the number of its box in `around`.
-    box_of: Vec<usize>,
+    /// Of each point, the number of its cell in `around`.
+    cell_of: Vec<usize>,
     /// The points close to the one at its turn.
     close: Vec<usize>,
 }
@@ -47,25 +45,22 @@ impl Neighbors {
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(crate) fn new(cloth: &Cloth, sim: &Sim, x: &Points) -> Result<Self> {
-        let distance = 2.0 * cloth.thickness;
-        let steps_per_frame = f64::from(sim.steps_per_frame);
-        let size = distance * (1.0 + 2.0 / steps_per_frame) * MARGIN;
+    pub(super) fn new(cloth: &Cloth, sim: &Sim, x: &Points) -> Result<Self> {
+        let rule = Separation::new(cloth, sim, MARGIN);
+        let size = rule.distance * (1.0 + 2.0 / f64::from(sim.steps_per_frame)) * MARGIN;
         Ok(Self {
-            distance,
-            reach: distance * distance * MARGIN,
-            steps_per_frame,
-            boxes: Boxes::new([size; 3], x)?,
+            rule,
+            grid: UniformGrid::new([size; 3], x)?,
             around: filled(x.len(), Around::default())?,
-            box_of: filled(x.len(), 0)?,
+            cell_of: filled(x.len(), 0)?,
             close: filled(x.len(), 0)?,
         })
     }
 
     /// Moves apart all close points; pinned points stay.
-    pub(crate) fn apply(&mut self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
-        self.boxes.update(x);
-        self.look_around();
+    pub(super) fn apply(&mut self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
+        self.grid.update(x);
+        self.find_around();
         counters.boxes_searched += self.around.len() as u64;
         for p in pins.free.iter().cloned().flatten() {
             counters.pairs_tested += self.find_close(p, x);
@@ -76,21 +71,22 @@ impl Neighbors {
         }
     }
 
-    /// Finds the points around every box. Boxes come in the order of their numbers, so the
+    /// Finds the points around every cell. Cells come in the order of their numbers, so the
     /// ranges around them only ever move forward.
-    fn look_around(&mut self) {
-        let (order, boxes) = (self.boxes.order(), &self.boxes);
+    fn find_around(&mut self) {
+        let (order, grid) = (self.grid.order(), &self.grid);
         let mut ends = [(0, 0); 9];
         self.around.clear();
-        for members in order.chunk_by(|&p, &q| boxes.key(p) == boxes.key(q)) {
-            let (kx, ky, kz) = boxes.key(members[0]);
+        for members in order.chunk_by(|&p, &q| grid.key(p) == grid.key(q)) {
+            let (kx, ky, kz) = grid.key(members[0]);
             let column = |n: i64| (kx.saturating_add(n / 3 - 1), ky.saturating_add(n % 3 - 1));
             self.around.push(array::from_fn(|n| {
                 let (x, y) = column(n as i64);
                 let (first, last) = ((x, y, kz.saturating_sub(1)), (x, y, kz.saturating_add(1)));
                 let (start, end) = &mut ends[n];
-                let before =
-                    |at: usize, limit: &dyn Fn(_) -> bool| at < order.len() && limit(boxes.key(order[at]));
+                let before = |at: usize, limit: &dyn Fn(CellKey) -> bool| {
+                    order.get(at).is_some_and(|&p| limit(grid.key(p)))
+                };
                 while before(*start, &|key| key < first) {
                     *start += 1;
                 }
@@ -100,42 +96,35 @@ impl Neighbors {
                 }
                 *start..*end
             }));
-            members.iter().for_each(|&p| self.box_of[p] = self.around.len() - 1);
+            members.iter().for_each(|&p| self.cell_of[p] = self.around.len() - 1);
         }
     }
 
-    /// Finds the points that may be too close to point `p`; how many were looked at.
+    /// Finds the points that may be too close to point `p`; how many were compared with it.
     fn find_close(&mut self, p: usize, x: &Points) -> u64 {
-        let order = self.boxes.order();
+        let order = self.grid.order();
         let position = x.get(p);
-        let mut looked_at = 0;
+        let mut compared = 0;
         self.close.clear();
-        for run in &self.around[self.box_of[p]] {
+        for run in &self.around[self.cell_of[p]] {
             for &q in &order[run.clone()] {
                 let e = position - x.get(q);
-                if dot(e, e) <= self.reach && q != p {
+                if dot(e, e) <= self.rule.reach && q != p {
                     self.close.push(q);
                 }
             }
-            looked_at += run.len() as u64;
+            compared += run.len() as u64;
         }
         self.close.sort_unstable();
-        looked_at
+        compared
     }
 
-    /// Where point `p` belongs; nothing when it may stay.
+    /// Where point `p` belongs; `None` when it may stay.
     fn corrected(&self, p: usize, x: &Points) -> Option<Vec3> {
         let position = x.get(p);
-        let (mut sum, mut count) = (Vec3::zeros(), 0.0);
-        for &q in &self.close {
-            let e = position - x.get(q);
-            let l = dot(e, e).sqrt();
-            if 0.0 < l && l < self.distance {
-                sum += e * ((self.distance - l) / l);
-                count += 1.0;
-            }
-        }
-        (count > 0.0).then(|| position + sum * (1.0 / count / self.steps_per_frame))
+        let mut pushes = Pushes::default();
+        self.close.iter().for_each(|&q| pushes.add(position - x.get(q), &self.rule));
+        self.rule.corrected(position, &pushes)
     }
 }
 
@@ -182,7 +171,7 @@ mod tests {
             "pinned": [[3, 3], [4, 7]]}, "sim": {"self_collision": "neighbors"}}"#;
         let scene = crate::scene::load_text("a.json", text, &Default::default()).unwrap().scene;
         let cloth = scene.cloth.unwrap();
-        let pins = Pins::new(&cloth, super::super::grid::Grid { width: 15, height: 20 }).unwrap();
+        let pins = Pins::new(&cloth, crate::cloth::grid::Grid { width: 15, height: 20 }).unwrap();
         for (seed, spread) in [(1, 0.1), (1000, 0.3), (5000, 1.0)] {
             for steps in [1, 2, 30] {
                 let sim = Sim { steps_per_frame: steps, ..scene.sim.clone() };
@@ -191,12 +180,13 @@ mod tests {
                 let mut neighbors = Neighbors::new(&cloth, &sim, &x).unwrap();
                 for round in 0..20 {
                     let mut moved = x.clone();
-                    neighbors.boxes.update(&moved);
-                    neighbors.look_around();
+                    neighbors.grid.update(&moved);
+                    neighbors.find_around();
                     let mut pairs = Vec::new();
                     for p in (0..300).filter(|&p| !pins.pinned[p]) {
                         neighbors.find_close(p, &moved);
-                        let near = |&&q: &&usize| (moved.get(p) - moved.get(q)).norm() < neighbors.distance;
+                        let near =
+                            |&&q: &&usize| (moved.get(p) - moved.get(q)).norm() < neighbors.rule.distance;
                         pairs.extend(neighbors.close.iter().filter(near).map(|&q| [p, q]));
                         if let Some(position) = neighbors.corrected(p, &moved) {
                             moved.set(p, position);

@@ -5,6 +5,8 @@
 //! Everything is plain loops over arrays: the compiler turns them into whatever vector
 //! instructions the machine has, and since it neither fuses nor reorders, the bits are the same.
 
+pub mod level;
+
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Fragments that a [`Wide`] holds.
