@@ -107,7 +107,7 @@ impl<'a> Cloth<'a> {
         self.limit_stretch();
     }
 
-    /// 1. The force on every point: its weight, and Hooke's law for each spring.
+    /// Phase 1: The force on every point: its weight, and Hooke's law for each spring.
     fn forces(&self) -> Vec<Vector> {
         let gravity = self.scene.sim.gravity;
         let weight = scale([gravity.x, gravity.y, gravity.z], self.mass);
@@ -124,7 +124,7 @@ impl<'a> Cloth<'a> {
         forces
     }
 
-    /// 2. Verlet's scheme: each point repeats most of its last displacement, and the force adds to it.
+    /// Phase 2: Verlet's scheme: each point repeats most of its last displacement, and the force adds to it.
     fn integrate(&mut self, forces: &[Vector]) {
         let dt2_over_m = self.dt * self.dt / self.mass;
         for p in (0..self.x.len()).filter(|&p| !self.pinned[p]) {
@@ -135,7 +135,7 @@ impl<'a> Cloth<'a> {
         }
     }
 
-    /// 3. Space is divided into boxes. Each point moves away from those in its box that are closer than twice the
+    /// Phase 3: Space is divided into boxes. Each point moves away from those in its box that are closer than twice the
     /// thickness, by the mean of what separates them, spread over the steps of a frame.
     fn collide_with_itself(&mut self) {
         let cloth = self.scene.cloth.as_ref().unwrap();
@@ -166,15 +166,14 @@ impl<'a> Cloth<'a> {
         }
     }
 
-    /// 4. Points that went through a plane or into a sphere are put back on its surface, and friction takes a
+    /// Phase 4: Points that went through a plane or into a sphere are put back on its surface, and friction takes a
     /// part of the way from where they were to there.
     fn collide_with_objects(&mut self) {
-        for p in (0..self.x.len()).filter(|&p| !self.pinned[p]) {
-            for plane in &self.scene.planes {
-                self.collide_with_plane(p, plane);
-            }
-            for sphere in &self.scene.spheres {
-                self.collide_with_sphere(p, sphere);
+        let scene = self.scene;
+        for p in 0..self.x.len() {
+            if !self.pinned[p] {
+                scene.planes.iter().for_each(|plane| self.collide_with_plane(p, plane));
+                scene.spheres.iter().for_each(|sphere| self.collide_with_sphere(p, sphere));
             }
         }
     }
@@ -203,7 +202,7 @@ impl<'a> Cloth<'a> {
         }
     }
 
-    /// 5. Springs that are longer than 1.1 times their rest length are shortened to that, one after the other, by moving
+    /// Phase 5: Springs that are longer than 1.1 times their rest length are shortened to that, one after the other, by moving
     /// both ends, or the one that is not pinned.
     fn limit_stretch(&mut self) {
         let Some(limit) = self.scene.sim.stretch_limit else { return };
