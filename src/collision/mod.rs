@@ -88,7 +88,8 @@ impl Colliders {
         self.of(kind).for_each(|shape| shape.resolve_points(x, last, pins, counters));
     }
 
-    /// The end of a step for the objects of one kind: puts every unpinned point outside.
+    /// The end of a step for the objects of one kind: puts every unpinned point outside, if the scene asks
+    /// for it.
     pub(crate) fn depenetrate(
         &self,
         kind: ColliderKind,
@@ -96,7 +97,9 @@ impl Colliders {
         pins: &Pins,
         counters: &mut Counters,
     ) {
-        self.of(kind).for_each(|shape| shape.depenetrate_points(x, pins, counters));
+        if self.keep_outside() {
+            self.of(kind).for_each(|shape| shape.depenetrate_points(x, pins, counters));
+        }
     }
 
     /// What each object is to points.

@@ -3,7 +3,7 @@
 
 use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
-use super::names::{CONTACTS, DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
+use super::names::{CONTACTS, DAMPINGS, FILTERS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::reader::Object;
 use super::scalar::{Choice, Coded, Count, Flag, Name, Number};
@@ -99,7 +99,7 @@ fn sim(at: &mut Object) -> Sim {
         fps: at.optional("fps", 90.0, Number(from_to(1e-6, 1e9).unit("frames/s"))),
         steps_per_frame: at.optional("steps_per_frame", 30, Count(1, 1_000_000_000)),
         gravity: at.optional("gravity", Vec3::new(0.0, -9.8, 0.0), Vector(ANY.unit("m/s²"))),
-        integrator: at.optional("integrator", Integrator::Verlet, Choice(INTEGRATORS)),
+        integrator: at.optional("integrator", Integrator::Verlet, Choice(Integrator::NAMES)),
         iterations: at.optional("iterations", 1, Count(1, 1_000_000)),
         tolerance: at.optional("tolerance", 1e-4, Number(from_to(1e-15, 1.0))),
         precision: at.optional("precision", Precision::F64, Choice(PRECISIONS)),
