@@ -10,9 +10,11 @@ mod cloth;
 mod gl;
 mod integrators;
 mod layers;
+mod msrv;
 #[path = "../support/naive/mod.rs"]
 mod naive;
 mod output;
+mod promises;
 mod raster;
 mod render;
 #[path = "../support/repository.rs"]
