@@ -11,8 +11,6 @@ mod gl;
 mod integrators;
 mod layers;
 mod msrv;
-#[path = "../support/naive/mod.rs"]
-mod naive;
 mod output;
 mod promises;
 mod raster;
@@ -24,4 +22,6 @@ mod scene;
 mod scenes;
 mod shader;
 mod support;
+#[path = "../../examples/textbook_cloth.rs"]
+mod textbook_cloth;
 mod textures;

@@ -2,8 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::path::Path;
-
 use drape::scene::Overrides;
 use drape::texture_source::TextureSource;
 use drape_lab::study::matrix::{Extent, Source};
@@ -204,7 +202,7 @@ fn commands_make_the_rows_of_their_section() {
     for section in text.split("\n## ").skip(1) {
         let Some(command) = section.lines().find(|line| line.starts_with("drape study ")) else { continue };
         commands += 1;
-        assert!(Path::new(command.split(' ').nth(2).unwrap()).exists(), "{command}");
+        assert!(crate::repository::path(command.split(' ').nth(2).unwrap()).exists(), "{command}");
         let only: Vec<&str> =
             command.split("--only \"").skip(1).map(|rest| rest.split_once('"').unwrap().0).collect();
         for number in named_rows(section) {

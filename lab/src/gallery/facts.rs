@@ -1,7 +1,7 @@
 //! What stands under a picture: its parameters, how stable its step is, where its energy went.
 
 use super::shot::{Shot, State};
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::scene::{Cloth, Material, Scene, Shader};
 
 /// The parameters that a picture was made with.

@@ -1,6 +1,6 @@
 //! One run: how a cloth fared.
 
-use drape::cloth::stability::is_always_stable;
+use drape::diagnostics::stability::is_always_stable;
 use drape::error::{Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
