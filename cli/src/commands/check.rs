@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
-use crate::run::advance::certain;
+use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
 use crate::session::ui::paint;
 use drape::cloth::stability::Stability;
@@ -128,7 +128,7 @@ fn instability(scene: &Scene) -> Option<Error> {
     match Stability::new(cloth, &scene.sim) {
         Ok(stability) => {
             let unstable = stability.is_unstable_at_rest();
-            unstable.then(|| certain(&stability, cloth.ks, scene.sim.steps_per_frame))
+            unstable.then(|| unstable_at_rest(&stability, cloth.ks, scene.sim.steps_per_frame))
         }
         Err(error) => Some(error),
     }

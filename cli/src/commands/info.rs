@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::advance::largest_ks;
 use crate::run::counts;
+use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::Constants;
 use drape::cloth::stability::Stability;
