@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
-use crate::run::advance::certain;
+use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
 use crate::session::ui::paint;
 use drape::diagnostics::stability::Stability;
@@ -124,7 +124,7 @@ fn instability(scene: &Scene) -> Option<Error> {
     match Stability::of_bounded(cloth, &scene.sim) {
         Ok(stability) => {
             let unstable = stability.filter(Stability::is_unstable_at_rest)?;
-            Some(certain(&unstable, cloth.ks, scene.sim.steps_per_frame))
+            Some(unstable_at_rest(&unstable, cloth.ks, scene.sim.steps_per_frame))
         }
         Err(error) => Some(error),
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::advance::largest_ks;
+use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::stability::Stability;
