@@ -10,7 +10,9 @@ mod cloth;
 mod gl;
 mod integrators;
 mod layers;
+mod msrv;
 mod output;
+mod promises;
 mod raster;
 mod render;
 #[path = "../support/repository.rs"]

@@ -32,7 +32,7 @@ enum Rates {
 
 /// The differential equation that every method approaches: what else a scene asks for has no limit
 /// as the step shrinks (the stretch limit moves springs a little further in every step, damping
-/// per step grows with the number of steps, and boxes of self-collision depend on rounding).
+/// per step grows with the number of steps, and cells of self-collision depend on rounding).
 pub const MODEL: [&str; 6] = [
     "sim.integrator=verlet",
     "sim.precision=f64",

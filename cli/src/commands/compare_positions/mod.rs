@@ -14,7 +14,7 @@ use self::parting::{Difference, Ours};
 use self::verdict::{Case, Tried, Verdict};
 use crate::args::frames::Frames;
 use crate::args::scene::{Leniency, SceneArgs, frame_at};
-use crate::run::advance::begin;
+use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::progress::Progress;
 use drape::error::{Error, Kind, Result};
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if start.is_some() {
         session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
     }
-    let simulation = begin(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
+    let simulation = start_from(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
     let mut progress = Progress::new(&session.ui, "simulating", last_frame);
     let ours = Ours::simulate(simulation, first_frame, theirs.len(), |simulation| {
         progress.set(simulation.frame());
