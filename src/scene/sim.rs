@@ -38,7 +38,7 @@ pub struct Sim {
 
 /// The scheme that advances the positions (`sim.integrator`).
 ///
-/// README has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones.
+/// docs/integrators.md has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones.
 ///
 /// Where Verlet's scheme is stable it is the cheapest by far; the others are for cloth so stiff and
 /// light that it would need thousands of steps a frame.
