@@ -7,7 +7,7 @@ use std::fs::File;
 use std::path::Path;
 
 use super::{Animation, Changes, Format, Rectangle};
-use crate::session::staged::Staged;
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
 /// An animated PNG that is being written.

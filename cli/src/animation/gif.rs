@@ -12,7 +12,7 @@ use std::path::Path;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
 use super::{Animation, Changes, Format, Rectangle};
-use crate::session::staged::Staged;
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
 /// Most pictures per second: players show delays below two hundredths as ten.

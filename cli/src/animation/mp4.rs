@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 
 use super::{Animation, Format};
-use crate::session::staged::Staged;
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
 /// What the film is encoded with, wherever the pictures come from. Players want even sides and

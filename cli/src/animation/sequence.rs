@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use crate::session::atomic;
+use crate::session::files::atomic;
 use drape::error::{Error, Kind, Result};
 
 /// The keyword of the text chunk.

@@ -12,10 +12,10 @@ use crate::animation::target::{Marks, Target};
 use crate::args::frames::{Frames, Moments};
 use crate::args::render::{Look, nothing_seen};
 use crate::args::scene::{Leniency, SceneArgs, frame_at, seconds};
-use crate::run::advance::start;
+use crate::run::start::start;
 use crate::session::Session;
-use crate::session::atomic::Content;
-use crate::session::outputs;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::render::Renderer;
 use drape::scene::Scene;
@@ -141,12 +141,8 @@ impl Args {
         #[expect(clippy::cast_precision_loss, reason = "for people")]
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };
-        session.ui.note(&format!(
-            "{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s"
-        ));
-        if session.ui.json {
-            session.print_json(&Summary { out, width, height, fps, pictures, kept, seconds })?;
-        }
-        Ok(())
+        let line =
+            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s");
+        session.report(&Summary { out, width, height, fps, pictures, kept, seconds }, &line)
     }
 }

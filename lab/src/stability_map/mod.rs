@@ -3,7 +3,7 @@
 //!
 //! The lines are `steps a second = ω / limit`, the limit at rest or at worst, with ω² from 8 ks/m (the fastest vibration of the
 //! lattice at rest), 12 ks/m (at worst: the most in any shape) and 17.6 ks/m (Gershgorin's circles,
-//! for which nothing but the stiffness that meets in a point is known); `src/cloth/stability.rs`
+//! for which nothing but the stiffness that meets in a point is known); `src/diagnostics/stability.rs`
 //! derives the first two and the limit. Cells and columns do not depend on each other, so that
 //! they are spread over threads and the map is the same for every number of them.
 
