@@ -38,12 +38,12 @@ impl<'a> Object<'a> {
             let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
             objects.push(Self { mesh, lines, model: model(&Vec3::zeros(), 1.0), material: &cloth.material });
         }
-        for plane in &scene.planes {
+        for plane in scene.planes() {
             let mesh = Mesh::plane(plane, Needs::of(plane.material.shader));
             let model = model(&Vec3::zeros(), 1.0);
             objects.push(Self { mesh, lines: None, model, material: &plane.material });
         }
-        for sphere in &scene.spheres {
+        for sphere in scene.spheres() {
             let mesh = Mesh::sphere(sphere, Needs::of(sphere.material.shader));
             let model = model(&sphere.origin, sphere.radius * DRAWN_RADIUS);
             objects.push(Self { mesh, lines: None, model, material: &sphere.material });

@@ -157,7 +157,7 @@ fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drape::cloth::stability::Stability;
+    use drape::diagnostics::stability::Stability;
 
     fn pictures() -> Vec<Picture> {
         let parts = parts().unwrap();

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use crate::session::Session;
 use crate::session::progress::Progress;
 use drape::cloth::Counters;
-use drape::cloth::rest::{Motion, RestWatch};
+use drape::diagnostics::rest::{Motion, RestWatch};
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;

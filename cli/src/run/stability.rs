@@ -1,6 +1,6 @@
 //! What is said of a step against the stability bound of an explicit integrator.
 
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind};
 
 /// The error of a cloth that vibrates too fast even at rest.

@@ -3,9 +3,9 @@
 use super::stability::{may_become_unstable, unstable_at_rest};
 use crate::session::Session;
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
-use drape::scene::{Integrator, Scene};
+use drape::scene::Scene;
 use drape::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
@@ -42,11 +42,7 @@ pub(crate) fn start_from(
         if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
             return Err(error);
         }
-        // No other integrator has a largest step; the guard watches them while they run.
-        if scene.sim.integrator != Integrator::Verlet {
-            return Ok(simulation);
-        }
-        let stability = Stability::new(cloth, &scene.sim)?;
+        let Some(stability) = Stability::of_bounded(cloth, &scene.sim)? else { return Ok(simulation) };
         if stability.is_unstable_at_rest() {
             let error = unstable_at_rest(&stability, cloth.ks, scene.sim.steps_per_frame);
             if !allow_unstable {

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::ledger::Ledger;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
 use drape::render::{Options, Picture, Renderer};
@@ -68,14 +68,9 @@ impl Shot {
             (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
             (a, b) => a.is_none() && b.is_none(),
         };
-        let planes = |scene: &Scene| -> Vec<_> {
-            scene.planes.iter().map(|plane| (plane.point, plane.normal, plane.friction)).collect()
-        };
-        let spheres = |scene: &Scene| -> Vec<_> {
-            scene.spheres.iter().map(|sphere| (sphere.origin, sphere.radius, sphere.friction)).collect()
-        };
-        let same_world = a.sim == b.sim && planes(a) == planes(b) && spheres(a) == spheres(b);
-        cloth && same_world && self.allow_unstable == other.allow_unstable
+        let colliders = a.colliders.len() == b.colliders.len()
+            && a.colliders.iter().zip(&b.colliders).all(|(a, b)| a.collides_like(b));
+        cloth && colliders && a.sim == b.sim && self.allow_unstable == other.allow_unstable
     }
 }
 
@@ -139,8 +134,8 @@ fn film(
     if ledger {
         simulation.record_ledger()?;
     }
-    let stability =
-        first.scene.cloth.as_ref().map(|cloth| Stability::new(cloth, &first.scene.sim)).transpose()?;
+    let cloth = first.scene.cloth.as_ref();
+    let stability = cloth.map(|cloth| Stability::of_bounded(cloth, &first.scene.sim)).transpose()?.flatten();
     shots
         .map(|(place, shot)| {
             while simulation.frame() < shot.frame {

@@ -19,7 +19,7 @@ use drape::math::StateHash;
 use drape::output::compare::Difference;
 use drape::output::png::Pixels;
 use drape::render::{Options, Renderer, Shading};
-use drape::scene::{Filter, Plan, Scene, Shader};
+use drape::scene::{Collider, Filter, Plan, Scene, Shader};
 use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
 
@@ -62,8 +62,10 @@ impl Way {
         if let Some(bilinear) = self.bilinear {
             scene.render.filter = if bilinear { Filter::Bilinear } else { Filter::Nearest };
         }
-        for sphere in &mut scene.spheres {
-            sphere.resolution = self.resolution.map_or(sphere.resolution, |n| [n, n]);
+        for collider in &mut scene.colliders {
+            if let (Collider::Sphere(sphere), Some(n)) = (collider, self.resolution) {
+                sphere.resolution = [n, n];
+            }
         }
         scene
     }
@@ -153,10 +155,7 @@ pub fn measure(
 }
 
 fn has_lines(scene: &Scene) -> bool {
-    let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
-    let planes = scene.planes.iter().map(|plane| &plane.material);
-    let spheres = scene.spheres.iter().map(|sphere| &sphere.material);
-    cloth.chain(planes).chain(spheres).any(|material| material.shader == Shader::Wireframe)
+    scene.materials().any(|material| material.shader == Shader::Wireframe)
 }
 
 /// The cloth at the frame of the picture, the nearest to the scene's time, if it gets there.
@@ -177,7 +176,7 @@ fn ways(scene: &Scene, extent: &Extent) -> Vec<Way> {
     let plan = Plan::of(scene);
     let reads = !plan.textures.is_empty() || !plan.environments.is_empty();
     let filters = if reads { vec![Some(false), Some(true)] } else { vec![None] };
-    let resolutions = if scene.spheres.is_empty() {
+    let resolutions = if scene.spheres().next().is_none() {
         vec![None]
     } else {
         extent.resolutions.iter().copied().map(Some).collect()

@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// The frames of the states in the file, from A up to, without, B (default: found by their number)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
-    /// Largest distance between two points that is let pass, in metres; 0 asks for equal bits
+    /// Largest accepted distance between two points, in metres; 0 asks for equal bits
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]

@@ -26,11 +26,11 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
         let lines = wireframe.then(|| spring_lines(cloth, SpringKinds::of(cloth)));
         Object { mesh, lines, model: model(Vec3::zeros(), 1.0), material: &cloth.material }
     });
-    let planes = scene.planes.iter().map(|plane| {
+    let planes = scene.planes().map(|plane| {
         let mesh = Mesh::plane(plane, Needs::of(plane.material.shader));
         Object { mesh, lines: None, model: model(Vec3::zeros(), 1.0), material: &plane.material }
     });
-    let spheres = scene.spheres.iter().map(|sphere| {
+    let spheres = scene.spheres().map(|sphere| {
         let mesh = Mesh::sphere(sphere, Needs::of(sphere.material.shader));
         let model = model(sphere.origin, sphere.radius * 0.92);
         Object { mesh, lines: None, model, material: &sphere.material }
