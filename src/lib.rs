@@ -34,13 +34,14 @@
 //!
 //! | step | module |
 //! |---|---|
+//! | vector instructions and the numbers of the fragment stage | [`lanes`] |
 //! | scene file → validated scene → plan of what it needs | [`scene`] |
-//! | grid, springs, forces, collisions, stretch limit | [`cloth`] |
+//! | grid, springs, forces, stretch limit | [`cloth`] |
+//! | collisions with objects, and of the cloth with itself | `collision` |
 //! | how points move on under forces, and at which steps that is stable | [`integrator`] |
 //! | energies, extremes, rest, stability | [`diagnostics`] |
 //! | one step, one frame | [`simulation`] |
 //! | pictures that materials read | [`texture`], [`cubemap`], [`texture_source`] |
-//! | one number or eight side by side | [`lanes`] |
 //! | triangles with attributes | [`mesh`] |
 //! | orbit camera | [`camera`] |
 //! | vertex and fragment programs, beside their GLSL | [`shader`] |
@@ -72,3 +73,6 @@ pub mod shader;
 pub mod raster;
 pub mod render;
 pub mod output;
+
+#[doc = include_str!("../docs/architecture.md")]
+pub mod architecture {}

@@ -20,8 +20,8 @@ use super::grid::Grid;
 use super::real::Real;
 use super::springs::{FAMILIES, Family, Springs};
 use super::{Points, filled};
-use crate::dispatch::{Work, dispatch};
 use crate::error::Result;
+use crate::lanes::level::dispatch_plain;
 
 /// Zeros on either side of a row, so that a neighbour outside the grid adds nothing.
 const PAD: usize = 2;
@@ -75,7 +75,8 @@ impl<T: Real> Accumulator<T> {
         let bands = self.bands.par_iter_mut().zip(x).zip(y).zip(z).enumerate();
         bands.for_each(|(band, (((pulls, x), y), z))| {
             let (start, end) = (band * rows, (band * rows + rows).min(springs.grid.height));
-            dispatch(Band { springs, constant, pull: &pull, rows: start..end, pulls, sum: [x, y, z] });
+            let mut band = Band { springs, constant, pull: &pull, rows: start..end, pulls, sum: [x, y, z] };
+            dispatch_plain!(band.run());
         });
     }
 }
@@ -90,17 +91,16 @@ struct Band<'a, T, P> {
     sum: [&'a mut [T]; 3],
 }
 
-impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Work for Band<'_, T, P> {
+impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P> {
+    /// Sums the band.
     #[inline(always)]
-    fn run(mut self) {
+    fn run(&mut self) {
         for j in self.rows.start..self.springs.grid.height.min(self.rows.end + 2) {
             self.pull_row(j);
             self.sum_row(j);
         }
     }
-}
 
-impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P> {
     /// Computes the springs that are owned by row `j` and end in the band.
     #[inline(always)]
     fn pull_row(&mut self, j: usize) {

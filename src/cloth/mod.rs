@@ -19,7 +19,7 @@
 //! - angular momentum, once the stretch limit acts (it moves the point at which a velocity acts);
 //! - energy that only falls, once objects or self-collision act;
 //! - strain of at most 10 % after the stretch limit (one pass leaves 13 % on the stock scenes);
-//! - a distance of 2 · thickness between points (pairs across a cell border are never seen);
+//! - a distance of 2 · thickness between points (pairs across a box border are never seen);
 //! - no point inside a sphere or below a plane (friction moves along a chord, and the stretch
 //!   limit comes after the objects);
 //! - mirror symmetry and independence of the springs' order, once the stretch limit acts;
@@ -46,8 +46,6 @@ mod points;
 pub(crate) mod real;
 pub mod springs;
 pub(crate) mod stretch_limit;
-
-use chunks as pieces;
 
 pub use counters::Counters;
 pub use params::{Params, damping_rate};

@@ -20,7 +20,7 @@
 //!   3.2 ks (P (1 - P) + Q (1 - Q)). The largest sum is 12 ks with structural and shearing
 //!   springs, at P = 1, Q = 0, where bending adds nothing.
 
-use crate::cloth::grid::{Grid, Pins, start};
+use crate::cloth::grid::{Grid, Pins, start_of};
 use crate::cloth::springs::Springs;
 use crate::cloth::{Params, Points, dot, filled};
 use crate::error::Result;
@@ -155,14 +155,17 @@ fn fewest_steps(cloth: &Cloth, sim: &Sim, omega: f64, pick: fn(StepBound) -> f64
 /// too large.
 fn rest_eigenvalue(cloth: &Cloth) -> Result<f64> {
     let grid = Grid::new(cloth)?;
-    let (x, pins) = (start(cloth, grid)?, Pins::new(cloth, grid)?);
+    let pins = Pins::new(cloth, grid)?;
     let part = Grid { width: grid.width.min(PART), height: grid.height.min(PART) };
     match free_part(grid, part, &pins)? {
         Some(corner) if part != grid => {
             let free = Pins { pinned: filled(part.len(), false)?, ..Pins::default() };
-            fastest(cloth, part, &copied(&x, grid, corner, part)?, &free, ITERATIONS)
+            fastest(cloth, part, &start_of_part(cloth, grid, corner, part)?, &free, ITERATIONS)
         }
-        _ => fastest(cloth, grid, &x, &pins, (WORK / grid.len()).clamp(4, ITERATIONS)),
+        _ => {
+            let iterations = (WORK / grid.len()).clamp(4, ITERATIONS);
+            fastest(cloth, grid, &start_of_part(cloth, grid, 0, grid)?, &pins, iterations)
+        }
     }
 }
 
@@ -185,12 +188,12 @@ fn free_part(grid: Grid, part: Grid, pins: &Pins) -> Result<Option<usize>> {
     Ok(None)
 }
 
-/// The points of the part of `grid` whose first point is `corner`.
-fn copied(x: &Points, grid: Grid, corner: usize, part: Grid) -> Result<Points> {
+/// Where the points of the part of `grid` start whose first point is `corner`.
+fn start_of_part(cloth: &Cloth, grid: Grid, corner: usize, part: Grid) -> Result<Points> {
     let mut points = Points::zeros(part.len())?;
     for p in 0..part.len() {
         let (i, j) = part.column_row(p);
-        points.set(p, x.get(corner + j * grid.width + i));
+        points.set(p, start_of(cloth, grid, corner + j * grid.width + i));
     }
     Ok(points)
 }

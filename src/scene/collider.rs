@@ -1,5 +1,9 @@
 //! The colliders: what the cloth falls on.
 
+use std::ops::{Index, IndexMut};
+
+use serde::{Serialize, Serializer};
+
 use super::Material;
 use super::json::key::Row;
 use super::json::keys::keys;
@@ -13,14 +17,100 @@ use crate::math::Vec3;
 /// primitives than the rasteriser can number (see `raster::assemble`).
 pub const MAX_RESOLUTION: u32 = 1000;
 
-/// Something that the cloth collides with. A scene lists the planes first, then the spheres, each in
-/// file order: that is the order in which the method handles and draws them.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Collider {
-    /// An infinite plane.
-    Plane(Plane),
-    /// A ball.
-    Sphere(Sphere),
+/// The list of colliders: a row is a kind with its meaning, its key in a scene file and the plural of its
+/// name, in the order in which the method handles and draws them. Everything that differs from kind to kind is a `match`
+/// without a wildcard elsewhere, so the compiler names what a new row needs.
+macro_rules! colliders {
+    ($($(#[doc = $doc:literal])* $kind:ident = $key:literal, $plural:literal;)*) => {
+        /// Something that the cloth collides with.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Collider {
+            $($(#[doc = $doc])* $kind($kind),)*
+        }
+
+        /// A kind of collider.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum ColliderKind {
+            $($(#[doc = $doc])* $kind,)*
+        }
+
+        impl ColliderKind {
+            /// Every kind, in the order in which the method handles and draws them.
+            pub const ALL: &[Self] = &[$(Self::$kind),*];
+
+            /// The key of a scene file under which colliders of this kind stand.
+            pub fn key(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $key,)*
+                }
+            }
+
+            fn row(self) -> Row {
+                match self {
+                    $(Self::$kind => Row::new($key, &[$($doc),*]),)*
+                }
+            }
+
+            fn read(self, at: &mut Object) -> Collider {
+                match self {
+                    $(Self::$kind => Collider::$kind($kind::read(at)),)*
+                }
+            }
+
+            /// The name of several of them: also that of their entry in the energy ledger.
+            pub fn plural(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $plural,)*
+                }
+            }
+        }
+
+        impl Collider {
+            /// Its kind.
+            pub fn kind(&self) -> ColliderKind {
+                match self {
+                    $(Self::$kind(_) => ColliderKind::$kind,)*
+                }
+            }
+
+            /// What it looks like.
+            pub fn material(&self) -> &Material {
+                match self {
+                    $(Self::$kind(collider) => &collider.material,)*
+                }
+            }
+
+            /// What it looks like, to be changed.
+            pub fn material_mut(&mut self) -> &mut Material {
+                match self {
+                    $(Self::$kind(collider) => &mut collider.material,)*
+                }
+            }
+
+            /// Share of the sliding motion that contact removes (0..=1), to be changed.
+            pub fn friction_mut(&mut self) -> &mut f64 {
+                match self {
+                    $(Self::$kind(collider) => &mut collider.friction,)*
+                }
+            }
+
+            /// Whether the cloth meets both alike: all but what pictures show is equal.
+            pub fn collides_like(&self, other: &Self) -> bool {
+                match (self, other) {
+                    $((Self::$kind(a), Self::$kind(b)) => a.collides_like(b),)*
+                    _ => false,
+                }
+            }
+        }
+    };
+}
+
+colliders! {
+    /// A plane that the cloth falls on, or a list of planes. It has no end, but only a square of 4 m of it is
+    /// drawn.
+    Plane = "plane", "planes";
+    /// A ball that the cloth falls on, or a list of balls.
+    Sphere = "sphere", "spheres";
 }
 
 keys! {
@@ -34,6 +124,12 @@ keys! {
         friction: f64 => [required] from_to(0.0, 1.0);
         /// What the plane looks like. A key that is left out is as in the scene's `material`.
         material: Material => [inherited] Material::read_grey;
+    }
+}
+
+impl Plane {
+    fn collides_like(&self, other: &Self) -> bool {
+        Self { material: self.material.clone(), ..other.clone() } == *self
     }
 }
 
@@ -53,73 +149,51 @@ keys! {
     }
 }
 
-const SPHERE: Row = Row::new("sphere", &["A ball that the cloth falls on, or a list of balls."]);
-const PLANE: Row = Row::new(
-    "plane",
-    &[
-        "A plane that the cloth falls on, or a list of planes. It has no end, but only a square of 4 m of it is drawn.",
-    ],
-);
+impl Sphere {
+    fn collides_like(&self, other: &Self) -> bool {
+        Self { material: self.material.clone(), resolution: self.resolution, ..other.clone() } == *self
+    }
+}
 
 impl Collider {
-    /// The keys of a scene file under which colliders stand: one object each, or a list of them.
-    pub const KINDS: [&'static str; 2] = ["sphere", "plane"];
-
-    /// Reads the colliders of every kind, each in file order.
+    /// Reads the colliders of every kind, each in file order. The documentation lists the kinds the other
+    /// way round.
     pub(super) fn read_all(at: &mut Object) -> Vec<Self> {
-        let spheres = at.each(SPHERE, |at| Self::Sphere(Sphere::read(at)));
-        let planes = at.each(PLANE, |at| Self::Plane(Plane::read(at)));
-        planes.into_iter().chain(spheres).collect()
+        let kinds = ColliderKind::ALL.iter().rev();
+        let mut colliders: Vec<_> = kinds.flat_map(|&kind| at.each(kind.row(), |at| kind.read(at))).collect();
+        colliders.sort_by_key(|collider| collider.kind() as usize);
+        colliders
     }
+}
 
-    /// The key of a scene file under which colliders of this kind stand.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Plane(_) => "plane",
-            Self::Sphere(_) => "sphere",
-        }
+/// A value for each kind of collider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PerKind<T>([T; ColliderKind::ALL.len()]);
+
+impl<T: Copy> PerKind<T> {
+    /// Each value with the plural of its kind's name.
+    pub fn entries(self) -> impl Iterator<Item = (&'static str, T)> {
+        ColliderKind::ALL.iter().map(move |&kind| (kind.plural(), self[kind]))
     }
+}
 
-    /// What it looks like.
-    pub fn material(&self) -> &Material {
-        match self {
-            Self::Plane(plane) => &plane.material,
-            Self::Sphere(sphere) => &sphere.material,
-        }
+impl<T> Index<ColliderKind> for PerKind<T> {
+    type Output = T;
+
+    fn index(&self, kind: ColliderKind) -> &T {
+        &self.0[kind as usize]
     }
+}
 
-    /// What it looks like, to be changed.
-    pub fn material_mut(&mut self) -> &mut Material {
-        match self {
-            Self::Plane(plane) => &mut plane.material,
-            Self::Sphere(sphere) => &mut sphere.material,
-        }
+impl<T> IndexMut<ColliderKind> for PerKind<T> {
+    fn index_mut(&mut self, kind: ColliderKind) -> &mut T {
+        &mut self.0[kind as usize]
     }
+}
 
-    /// Part of the sliding that contact takes away (0..=1).
-    pub fn friction(&self) -> f64 {
-        match self {
-            Self::Plane(plane) => plane.friction,
-            Self::Sphere(sphere) => sphere.friction,
-        }
-    }
-
-    /// The same, to be changed.
-    pub fn friction_mut(&mut self) -> &mut f64 {
-        match self {
-            Self::Plane(plane) => &mut plane.friction,
-            Self::Sphere(sphere) => &mut sphere.friction,
-        }
-    }
-
-    /// Whether the cloth meets both alike: all but what pictures show is equal.
-    pub fn collides_like(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Plane(a), Self::Plane(b)) => Plane { material: a.material.clone(), ..b.clone() } == *a,
-            (Self::Sphere(a), Self::Sphere(b)) => {
-                Sphere { material: a.material.clone(), resolution: a.resolution, ..b.clone() } == *a
-            }
-            (Self::Plane(_) | Self::Sphere(_), _) => false,
-        }
+/// As an object with the plurals as keys.
+impl<T: Copy + Serialize> Serialize for PerKind<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.entries())
     }
 }

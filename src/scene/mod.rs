@@ -28,7 +28,7 @@ use json::object::{Object, defaults};
 pub use crate::math::Vec3;
 pub use camera::Camera;
 pub use cloth::{Cloth, MAX_POINTS, Orientation};
-pub use collider::{Collider, MAX_RESOLUTION, Plane, Sphere};
+pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Sphere};
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
@@ -88,7 +88,7 @@ impl Scene {
     pub fn planes(&self) -> impl Iterator<Item = &Plane> {
         self.colliders.iter().filter_map(|collider| match collider {
             Collider::Plane(plane) => Some(plane),
-            Collider::Sphere(_) => None,
+            _ => None,
         })
     }
 
@@ -96,8 +96,15 @@ impl Scene {
     pub fn spheres(&self) -> impl Iterator<Item = &Sphere> {
         self.colliders.iter().filter_map(|collider| match collider {
             Collider::Sphere(sphere) => Some(sphere),
-            Collider::Plane(_) => None,
+            _ => None,
         })
+    }
+
+    /// How many colliders there are of each kind.
+    pub fn collider_counts(&self) -> PerKind<usize> {
+        let mut counts = PerKind::default();
+        self.colliders.iter().for_each(|collider| counts[collider.kind()] += 1);
+        counts
     }
 
     /// What each drawn object looks like, in draw order: the cloth, then the colliders.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Collider;
+use super::ColliderKind;
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
 use super::json::node::{Json, Member, Node};
@@ -114,10 +114,10 @@ pub(super) fn apply(diagnostics: &mut Diagnostics, document: &mut Node, set: Set
     insert(diagnostics, document, &steps, "", set.value);
 }
 
-/// Lets one object count as a list of one, and a list of one as its object.
+/// Lets one collider count as a list of one, and a list of one as its only collider.
 fn list_steps(document: &Node, mut steps: Vec<Step>) -> Vec<Step> {
     let [list, second, ..] = steps.as_slice() else { return steps };
-    if !Collider::KINDS.contains(&list.name.as_str()) {
+    if ColliderKind::ALL.iter().all(|kind| kind.key() != list.name) {
         return steps;
     }
     match document.get(&list.name).map(|node| &node.json) {

@@ -52,13 +52,18 @@ keys! {
 choices! {
     /// The scheme that advances the positions (`sim.integrator`).
     ///
-    /// README has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
+    /// docs/integrators.md has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
     /// implicit method was as accurate as Verlet's scheme at any stiffness that was tried, and fewer implicit steps
     /// can cost more, because each takes more iterations.
     pub enum Integrator {
         /// Position Verlet, the scheme of the course. It is explicit: stable for short steps only, which is checked
         /// before the first step.
         Verlet = "verlet",
+        /// The classical Runge-Kutta method, fourth order, four evaluations of the forces in a step. It is explicit:
+        /// stable for short steps only, which is checked before the first step.
+        ///
+        /// `src/integrator/rk4.rs`.
+        Rk4 = "rk4",
         /// Extended position-based dynamics, first order. It is never refused, but is wrong and gains energy where its
         /// `sim.iterations` are too few; then the run is stopped.
         ///

@@ -1,12 +1,14 @@
 //! Checks that involve more than one key.
 
 use std::collections::BTreeMap;
+use std::iter;
 
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
 use super::json::node::Node;
 use super::json::span::Span;
-use super::{Cloth, Damping, Integrator, MAX_POINTS, Precision, Scene, SelfCollision, Start};
+use super::json::text::enumerated;
+use super::{Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Precision, Scene, SelfCollision, Start};
 
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
@@ -183,11 +185,16 @@ impl Checks<'_> {
         if count <= MAX_OBJECTS {
             return;
         }
-        let key = if scene.planes().count() > scene.spheres().count() { "plane" } else { "sphere" };
+        let counts = scene.collider_counts();
+        let kind = ColliderKind::ALL.iter().copied().max_by_key(|&kind| counts[kind]);
+        let key = kind.map_or("cloth", ColliderKind::key);
+        let plurals = counts.entries().map(|(plural, _)| plural);
+        let names: Vec<String> = iter::once("cloth").chain(plurals).map(str::to_owned).collect();
+        let names = enumerated(&names, "and");
         let place = self.span(key).map(Span::first);
         let finding = Finding::new("scene::too_many_objects", format!("{count} objects are too many"))
             .key(key)
-            .help(format!("cloth, planes and spheres together may be at most {MAX_OBJECTS}"));
+            .help(format!("{names} together may be at most {MAX_OBJECTS}"));
         self.error(place, "most of them are here", finding);
     }
 

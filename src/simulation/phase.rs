@@ -1,6 +1,6 @@
 //! The phases of a step.
 
-use crate::collision::ColliderKind;
+use crate::scene::ColliderKind;
 
 /// A phase of a step, in the order in which they come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

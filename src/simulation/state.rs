@@ -6,13 +6,13 @@ use crate::cloth::grid::{self, Grid, Pins};
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Counters, Model, Params, Points};
+use crate::collision::Colliders;
 use crate::collision::self_collision::SelfCollision;
-use crate::collision::{ColliderKind, Colliders};
 use crate::diagnostics::energy::Energy;
 use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
 use crate::integrator::{self, Integrator};
-use crate::scene::{Plan, Scene, Start};
+use crate::scene::{ColliderKind, Plan, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]

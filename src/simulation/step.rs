@@ -4,7 +4,7 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::Counters;
-use crate::collision::ColliderKind;
+use crate::scene::ColliderKind;
 
 impl State {
     /// Makes a step. The phases after the integration change positions and never `last`.
@@ -25,7 +25,7 @@ impl State {
         observer.after(Phase::SelfCollision, self);
 
         // 4. Collision: points that hit an object during the step are put on its surface.
-        for kind in ColliderKind::ALL {
+        for &kind in ColliderKind::ALL {
             self.collide(kind);
             observer.after(Phase::Collision(kind), self);
         }
@@ -35,7 +35,7 @@ impl State {
         observer.after(Phase::StretchLimit, self);
 
         // Where the scene asks for it: points that are still inside an object are put outside.
-        for kind in ColliderKind::ALL {
+        for &kind in ColliderKind::ALL {
             self.depenetrate(kind);
             observer.after(Phase::Depenetration(kind), self);
         }

@@ -40,10 +40,7 @@ fn cloth_parameters(cloth: &Cloth) -> String {
 
 /// How the objects are drawn.
 fn looks(scene: &Scene) -> Vec<String> {
-    let cloth = scene.cloth.as_ref().map(|cloth| &cloth.material);
-    let Some(material) = cloth.or(scene.spheres().next().map(|sphere| &sphere.material)) else {
-        return Vec::new();
-    };
+    let Some(material) = scene.materials().next() else { return Vec::new() };
     let Material { shader, ka, kd, ks, normal_scaling, height_scaling, .. } = material;
     let mut parts = vec![format!("shader {}", shader.name())];
     if *shader == Shader::Phong {
@@ -85,7 +82,7 @@ pub(super) fn ledger(state: &State) -> String {
     let Some(ledger) = state.ledger.filter(|_| state.frame > 0) else {
         return "Nothing has moved yet.".to_owned();
     };
-    let entries = ledger.entries().into_iter().filter(|(_, joule)| *joule != 0.0);
+    let entries = ledger.entries().filter(|(_, joule)| *joule != 0.0);
     let entries: Vec<_> =
         entries.map(|(name, joule)| format!("{} {}", name.replace('_', " "), joules(joule))).collect();
     format!(

@@ -134,8 +134,8 @@ fn film(
     if ledger {
         simulation.record_ledger()?;
     }
-    let stability =
-        first.scene.cloth.as_ref().map(|cloth| Stability::new(cloth, &first.scene.sim)).transpose()?;
+    let cloth = first.scene.cloth.as_ref();
+    let stability = cloth.map(|cloth| Stability::of_bounded(cloth, &first.scene.sim)).transpose()?.flatten();
     shots
         .map(|(place, shot)| {
             while simulation.frame() < shot.frame {

@@ -79,7 +79,7 @@ fn meaning(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ok => {
             "no blow-up in this run, and no spring much longer than the stretch limit allows. These values may be used; \
-             from the line at worst on none was found to come later either."
+             with as many steps as the line at worst asks for, no blow-up was found later either."
         }
         Outcome::Stretch => {
             "no blow-up: no energy came from nowhere. But at the end of a frame a spring was over its rest length by \

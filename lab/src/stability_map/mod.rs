@@ -3,7 +3,7 @@
 //!
 //! The lines are `steps a second = ω / limit`, the limit at rest or at worst, with ω² from 8 ks/m (the fastest vibration of the
 //! lattice at rest), 12 ks/m (at worst: the most in any shape) and 17.6 ks/m (Gershgorin's circles,
-//! for which nothing but the stiffness that meets in a point is known); `src/cloth/stability.rs`
+//! for which nothing but the stiffness that meets in a point is known); `src/diagnostics/stability.rs`
 //! derives the first two and the limit. Cells and columns do not depend on each other, so that
 //! they are spread over threads and the map is the same for every number of them.
 
@@ -19,6 +19,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use self::outcome::Run;
+use drape::cloth::springs::SpringKind;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Scene};
@@ -158,6 +159,6 @@ fn made_of(scene: &Scene, cloth: &Cloth, [density, ks]: [f64; 2]) -> Scene {
 
 /// Twice the stiffness that meets in a point with every spring, in N/m: 17.6 ks for all kinds.
 fn gershgorin(cloth: &Cloth) -> f64 {
-    let kinds = [(cloth.enable_structural, 4.0), (cloth.enable_shearing, 4.0), (cloth.enable_bending, 0.8)];
-    2.0 * cloth.ks * kinds.iter().filter(|(enabled, _)| *enabled).map(|(_, springs)| springs).sum::<f64>()
+    let kinds = SpringKind::ALL.into_iter().filter(|kind| kind.is_enabled(cloth));
+    2.0 * cloth.ks * kinds.map(|kind| 4.0 * kind.relative_stiffness()).sum::<f64>()
 }

@@ -1,27 +1,38 @@
 //! The matrix of runs: method × steps per second × stiffness.
 
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use drape::cloth::Params;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
-use drape::scene::{self, Cloth, Overrides, Scene};
+use drape::scene::{self, Cloth, Integrator, Overrides, Scene};
 
 /// How a cloth can be moved: a name, and what it changes in the model.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Method {
     /// Short name.
     pub name: &'static str,
     /// The changes, as `--set` takes them, after those of [`MODEL`].
-    pub sets: &'static [&'static str],
-    /// Steps per second, in whole tens; none for a method with a stable rate, whose multiples it is run at.
+    pub sets: Vec<String>,
     #[serde(skip)]
-    rates: &'static [u32],
+    rates: Rates,
+}
+
+/// The steps per second that a method is run at, in whole tens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rates {
+    /// Multiples of the rate that is stable under Verlet's scheme.
+    OfVerlet,
+    /// Multiples of the rate that is stable under the integrator of the method; [`LARGE_STEPS`] if all are.
+    OfIntegrator,
+    /// These.
+    Given(&'static [u32]),
 }
 
 /// The differential equation that every method approaches: what else a scene asks for has no limit
 /// as the step shrinks (the stretch limit moves springs a little further in every step, damping
-/// per step grows with the number of steps, and boxes of self-collision depend on rounding).
+/// per step grows with the number of steps, and cells of self-collision depend on rounding).
 pub const MODEL: [&str; 6] = [
     "sim.integrator=verlet",
     "sim.precision=f64",
@@ -31,52 +42,61 @@ pub const MODEL: [&str; 6] = [
     "sim.self_collision=off",
 ];
 
-/// The methods; the first is also the reference's.
-pub const METHODS: &[Method] = &[
-    Method { name: "Verlet, half-step start", sets: &[], rates: &[] },
-    Method { name: "Verlet, report start", sets: &["sim.start=report"], rates: &[] },
-    Method { name: "Verlet, damping per step", sets: &["sim.damping=per_step"], rates: &[] },
-    Method { name: "Verlet, stretch limit", sets: &["sim.stretch_limit=0.1"], rates: &[] },
-    Method {
-        name: "as published",
-        sets: &[
-            "sim.start=report",
-            "sim.damping=per_step",
-            "sim.stretch_limit=0.1",
-            "sim.self_collision=same_box",
-        ],
-        rates: &[],
-    },
-    Method { name: "Verlet, f32", sets: &["sim.precision=f32"], rates: &[] },
-    Method {
-        name: "XPBD, 1 pass",
-        sets: &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=1"],
-        rates: &[60, 120, 300, 600, 1200, 2700, 8100],
-    },
-    Method {
-        name: "XPBD, 10 passes",
-        sets: &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=10"],
-        rates: &[60, 120, 300, 600],
-    },
-    Method {
-        name: "implicit Euler",
-        sets: &["sim.integrator=implicit_euler", "sim.start=report"],
-        rates: LARGE_STEPS,
-    },
-    Method {
-        name: "implicit Euler, loose",
-        sets: &["sim.integrator=implicit_euler", "sim.start=report", "sim.tolerance=0.01"],
-        rates: LARGE_STEPS,
-    },
-    Method { name: "BDF2", sets: &["sim.integrator=bdf2", "sim.start=report"], rates: LARGE_STEPS },
-    Method {
-        name: "BDF2, loose",
-        sets: &["sim.integrator=bdf2", "sim.start=report", "sim.tolerance=0.01"],
-        rates: LARGE_STEPS,
-    },
+/// The methods; the first is also the reference's. An integrator that none of these has is run with its
+/// defaults, under its own name.
+const CHOSEN: &[(&str, &[&str], Rates)] = &[
+    ("Verlet, half-step start", &[], Rates::OfVerlet),
+    ("Verlet, report start", &["sim.start=report"], Rates::OfVerlet),
+    ("Verlet, damping per step", &["sim.damping=per_step"], Rates::OfVerlet),
+    ("Verlet, stretch limit", &["sim.stretch_limit=0.1"], Rates::OfVerlet),
+    (
+        "as published",
+        &["sim.start=report", "sim.damping=per_step", "sim.stretch_limit=0.1", "sim.self_collision=same_box"],
+        Rates::OfVerlet,
+    ),
+    ("Verlet, f32", &["sim.precision=f32"], Rates::OfVerlet),
+    (
+        "XPBD, 1 pass",
+        &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=1"],
+        Rates::Given(&[60, 120, 300, 600, 1200, 2700, 8100]),
+    ),
+    (
+        "XPBD, 10 passes",
+        &["sim.integrator=xpbd", "sim.start=report", "sim.iterations=10"],
+        Rates::Given(&[60, 120, 300, 600]),
+    ),
+    ("implicit Euler", &["sim.integrator=implicit_euler", "sim.start=report"], Rates::Given(LARGE_STEPS)),
+    (
+        "implicit Euler, loose",
+        &["sim.integrator=implicit_euler", "sim.start=report", "sim.tolerance=0.01"],
+        Rates::Given(LARGE_STEPS),
+    ),
+    ("BDF2", &["sim.integrator=bdf2", "sim.start=report"], Rates::Given(LARGE_STEPS)),
+    (
+        "BDF2, loose",
+        &["sim.integrator=bdf2", "sim.start=report", "sim.tolerance=0.01"],
+        Rates::Given(LARGE_STEPS),
+    ),
 ];
 
-/// Steps per second of the implicit methods.
+/// Every method.
+pub static METHODS: LazyLock<Vec<Method>> = LazyLock::new(|| {
+    let owned = |sets: &[&str]| sets.iter().map(ToString::to_string).collect();
+    let chosen = CHOSEN.iter().map(|&(name, sets, rates)| Method { name, sets: owned(sets), rates });
+    let set_of = |(name, _): &(&str, Integrator)| format!("sim.integrator={name}");
+    let is_left = |row: &&(&'static str, Integrator)| {
+        let set = set_of(row);
+        !MODEL.iter().chain(CHOSEN.iter().flat_map(|(_, sets, _)| *sets)).any(|chosen| *chosen == set)
+    };
+    let left = Integrator::NAMES.iter().filter(is_left).map(|row| Method {
+        name: row.0,
+        sets: vec![set_of(row), "sim.start=report".to_owned()],
+        rates: Rates::OfIntegrator,
+    });
+    chosen.chain(left).collect()
+});
+
+/// Steps per second of methods that are stable at every step.
 const LARGE_STEPS: &[u32] = &[30, 60, 120, 300, 600];
 
 /// A scene file and changes to it, loaded anew for each cell of the matrix.
@@ -256,13 +276,14 @@ pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
 fn known(panels: &[Panel]) -> String {
     let stiffness = panels.iter().map(|panel| format!("`k/m {:.2e}`", panel.k_over_m));
     let methods: Vec<_> = METHODS.iter().map(|method| format!("`{}`", method.name)).collect();
+    let integrators: Vec<_> = Integrator::NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
     let example = panels.iter().find_map(|panel| Some(panel.name(panel.cells.last()?)));
     format!(
-        "the stiffnesses of this scene are {}; the methods are {}; a whole name is such as `{}`; the integrators are \
-         `verlet`, `xpbd`, `implicit_euler`, `bdf2`",
+        "the stiffnesses of this scene are {}; the methods are {}; a whole name is such as `{}`; the integrators are {}",
         stiffness.collect::<Vec<_>>().join(", "),
         methods.join(", "),
         example.unwrap_or_default(),
+        integrators.join(", "),
     )
 }
 
@@ -277,7 +298,7 @@ fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Ext
     let mass = Params::new(cloth, &scene.sim).mass;
     let Stability { omega_safe, limit_worst, .. } = Stability::new(cloth, &scene.sim)?;
     let stable_rate = (omega_safe / limit_worst).max(50.0);
-    let rates = rates(stock, stable_rate, cloth, extent);
+    let rates = rates_around(stock, stable_rate, cloth, extent);
     let mut panel = Panel {
         density,
         part,
@@ -293,10 +314,18 @@ fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Ext
         return Ok(panel);
     }
     for (number, method) in METHODS.iter().enumerate() {
-        let own = if method.rates.is_empty() { &rates } else { method.rates };
-        for &rate in own {
-            let changes = method.sets.iter().map(ToString::to_string).chain(clock(stock.sim.fps, rate));
-            let scene = source.scene(&panel.sets.iter().cloned().chain(changes).collect::<Vec<_>>())?;
+        let changed =
+            |more: &[String]| source.scene(&[panel.sets.as_slice(), method.sets.as_slice(), more].concat());
+        let own = match method.rates {
+            Rates::OfVerlet => rates.clone(),
+            Rates::Given(rates) => rates.to_vec(),
+            Rates::OfIntegrator => match Stability::of_bounded(cloth, &changed(&[])?.sim)? {
+                Some(own) => rates_around(stock, own.omega_safe / own.limit_worst, cloth, extent),
+                None => LARGE_STEPS.to_vec(),
+            },
+        };
+        for rate in own {
+            let scene = changed(&clock(stock.sim.fps, rate))?;
             panel.cells.push(Cell { method: number, rate, scene });
         }
     }
@@ -311,7 +340,7 @@ fn springs_in(cloth: &Cloth, rate: u32, extent: &Extent) -> f64 {
 
 /// Steps per second around the stable rate and the scene's own, ascending; all are whole tens, and
 /// multiples of the scene's frames where those are.
-fn rates(stock: &Scene, stable: f64, cloth: &Cloth, extent: &Extent) -> Vec<u32> {
+fn rates_around(stock: &Scene, stable: f64, cloth: &Cloth, extent: &Extent) -> Vec<u32> {
     let quantum = quantum(stock.sim.fps);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0; saturates")]
     let rounded = |rate: f64| ((rate / f64::from(quantum)).ceil() as u32).saturating_mul(quantum);

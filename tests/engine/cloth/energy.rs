@@ -36,14 +36,14 @@ fn the_ledger_closes() {
         }
         let mut simulation = recorded(&scene);
         let start = simulation.energy();
-        let mut used = Ledger::default().entries().map(|_| 0.0);
+        let mut used: Vec<f64> = Ledger::default().entries().map(|_| 0.0).collect();
         for frame in 1..=120_u32 {
             simulation.advance_frame().unwrap();
             let (now, ledger) = (simulation.energy(), simulation.ledger().unwrap());
             let error = (now.total() - start.total() - ledger.sum()).abs();
             let bound = 1e-13 * f64::from(30 * frame) * start.total().abs().max(now.kinetic);
             assert!(error <= bound, "{name}, frame {frame}: off by {error:e} J, bound {bound:e} J");
-            ledger.entries().iter().zip(&mut used).for_each(|((_, e), used)| *used += e.abs());
+            ledger.entries().zip(&mut used).for_each(|((_, e), used)| *used += e.abs());
         }
         if name == "everything" {
             assert!(used.iter().all(|&used| used > 0.0), "every part takes part: {used:?}");

@@ -109,7 +109,7 @@ fn scenes(scene: &Scene) -> Vec<Mistake> {
         with("no stretch limit", |scene| scene.sim.stretch_limit = None),
         with("no self-collision", |scene| scene.sim.self_collision = SelfCollision::Off),
         with_cloth("self-collision from thickness on, not from twice that", |cloth| cloth.thickness *= 0.5),
-        with("self-collision with points of other boxes too (boxes told apart by a hash)", |scene| {
+        with("self-collision with points of other cells too (cells told apart by a hash)", |scene| {
             scene.sim.self_collision = SelfCollision::Neighbors;
         }),
         with("friction f where 1 - f belongs", |scene| {
@@ -138,8 +138,8 @@ fn plane_offsets(scene: &Scene) -> [Mistake; 2] {
 /// What programs were found to tell cells apart by. Only what makes neighbouring cells one shows: the
 /// points of others are not close.
 fn cell_hashes(scene: &Scene) -> [Mistake; 2] {
-    let cut = "boxes by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
-    let sum = "boxes told apart by x² + y² + z³ of coordinates cut towards zero";
+    let cut = "cells by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
+    let sum = "cells told apart by x² + y² + z³ of coordinates cut towards zero";
     [
         changed(cut, scene, Change::CellHash(|numbers| joined(numbers.map(towards_zero)))),
         changed(

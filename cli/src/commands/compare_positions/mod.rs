@@ -14,7 +14,7 @@ use self::parting::{Difference, Ours};
 use self::verdict::{Case, Tried, Verdict};
 use crate::args::frames::Frames;
 use crate::args::scene::{Leniency, SceneArgs, frame_at};
-use crate::run::advance::begin;
+use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::progress::Progress;
 use drape::error::{Error, Kind, Result};
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// The frames of the states in the file, from A up to, without, B (default: found by their number)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
-    /// Largest distance between two points that is let pass, in metres; 0 asks for equal bits
+    /// Largest accepted distance between two points, in metres; 0 asks for equal bits
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if start.is_some() {
         session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
     }
-    let simulation = begin(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
+    let simulation = start_from(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
     let mut progress = Progress::new(&session.ui, "simulating", last_frame);
     let ours = Ours::simulate(simulation, first_frame, theirs.len(), |simulation| {
         progress.set(simulation.frame());

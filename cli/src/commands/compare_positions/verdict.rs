@@ -16,7 +16,7 @@ use crate::session::Session;
 use crate::session::progress::Tally;
 use drape::cloth::{Counters, Points};
 use drape::error::{Kind, Result};
-use drape::scene::{Cloth, Orientation, Scene};
+use drape::scene::{Cloth, ColliderKind, Orientation, Scene};
 use drape::simulation::Simulation;
 
 /// A difference that rounding does not make before contact, in metres.
@@ -243,16 +243,16 @@ impl Case<'_> {
     /// What no run can tell apart, but acted before the positions parted.
     fn suspects(&self, counters: Counters) -> String {
         let touched = counters.object_moves > 0;
-        let acted = [
-            (counters.self_collision_moves > 0, "self-collision (order of points, of boxes)"),
-            (touched && self.scene.planes().next().is_some(), "collision with planes (its side, friction)"),
-            (
-                touched && self.scene.spheres().next().is_some(),
-                "collision with spheres (friction, the centre)",
-            ),
-            (counters.springs_limited > 0, "the stretch limit (its order, pinned ends)"),
-        ];
-        let names: Vec<&str> = acted.iter().filter(|(acted, _)| *acted).map(|(_, name)| *name).collect();
+        let counts = self.scene.collider_counts();
+        let collided = ColliderKind::ALL.iter().filter(|&&kind| touched && counts[kind] > 0);
+        let with_itself =
+            (counters.self_collision_moves > 0).then_some("self-collision (order of points, of cells)");
+        let with_objects = collided.map(|kind| match kind {
+            ColliderKind::Plane => "collision with planes (its side, friction)",
+            ColliderKind::Sphere => "collision with spheres (friction, the centre)",
+        });
+        let limited = (counters.springs_limited > 0).then_some("the stretch limit (its order, pinned ends)");
+        let names: Vec<&str> = with_itself.into_iter().chain(with_objects).chain(limited).collect();
         let always = "the start, the forces, the mass of a point, the step, damping";
         let acted = if names.is_empty() { String::new() } else { format!("; {}", names.join("; ")) };
         let single = if self.theirs.len() == 1 && !names.is_empty() {

@@ -163,17 +163,17 @@ fn figure(caption: &str, picture: &Pixels) -> Result<String> {
 
 /// What each method changes.
 fn method_section() -> String {
-    let code = |sets: &[&str]| {
+    let code = |sets: &[String]| {
         let sets: Vec<_> = sets.iter().map(|set| format!("<code>{}</code>", escape(set))).collect();
         if sets.is_empty() { "the model itself".to_owned() } else { sets.join(" ") }
     };
     let row = |(name, sets): (&str, String)| {
         format!("<tr><td>{}</td><td class=\"name\">{sets}</td></tr>\n", escape(name))
     };
-    let rows: String = METHODS.iter().map(|method| row((method.name, code(method.sets)))).collect();
+    let rows: String = METHODS.iter().map(|method| row((method.name, code(&method.sets)))).collect();
     format!(
         "<h2>Methods</h2>\n<p>What each sets besides the steps; use it with <code>--set</code>.</p>\n\
          <div class=\"wide\"><table><tr><th>method</th><th>changes</th></tr>\n{}{rows}</table></div>\n",
-        row(("model", code(&MODEL))),
+        row(("model", code(&MODEL.map(str::to_owned)))),
     )
 }

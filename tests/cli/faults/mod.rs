@@ -1,8 +1,10 @@
-//! Every check is seen to fail: `tests/faults/faults.json` lists faults, each with the one test
-//! that must catch it. Run all of them with `cargo test --release --test cli faults -- --ignored`,
+//! Every check is seen to fail: `faults.json` lists faults, each as an expression in a function or
+//! constant and what stands there instead, with the one test that must catch it. Run all of them with `cargo test --release --test cli faults -- --ignored`,
 //! or those whose name contains a word with the variable `FAULT`.
 
 #![expect(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
+
+mod patch;
 
 use std::{
     fs,
@@ -18,9 +20,9 @@ use serde::Deserialize;
 struct Fault {
     /// What is wrong, in words.
     fault: String,
-    /// The file, from the package's folder.
-    file: String,
-    /// Text that stands in the file exactly once.
+    /// The name of the function, constant or GLSL file that is changed.
+    item: String,
+    /// An expression or statement that stands in one item of this name exactly once.
     old: String,
     /// What stands there instead.
     new: String,
@@ -51,14 +53,15 @@ fn package() -> PathBuf {
 }
 
 fn faults() -> Vec<Fault> {
-    serde_json::from_str(&fs::read_to_string(package().join("tests/faults/faults.json")).unwrap()).unwrap()
+    serde_json::from_str(&fs::read_to_string(package().join("tests/cli/faults/faults.json")).unwrap())
+        .unwrap()
 }
 
 #[test]
 fn every_fault_has_its_place_and_its_test() {
-    for Fault { fault, file, old, new, caught_by } in faults() {
-        let text = fs::read_to_string(package().join(&file)).unwrap();
-        assert_eq!(text.matches(&old).count(), 1, "{fault}: the old text in {file}");
+    let wrong: Vec<String> = faults().iter().filter_map(|fault| place(fault).err()).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    for Fault { fault, old, new, caught_by, .. } in faults() {
         assert_ne!(old, new, "{fault}");
         let (path, test) = caught_by.rsplit_once("::").unwrap();
         let path = path.trim_end_matches("::tests").replace("::", "/");
@@ -74,6 +77,11 @@ fn every_fault_has_its_place_and_its_test() {
     }
 }
 
+/// Where the fault is put.
+fn place(Fault { fault, item, old, .. }: &Fault) -> Result<patch::Place, String> {
+    patch::find(&package(), item, old).map_err(|e| format!("{fault}: {e}"))
+}
+
 #[test]
 #[ignore = "compiles the library once a fault"]
 fn every_fault_is_caught() {
@@ -81,7 +89,8 @@ fn every_fault_is_caught() {
     let faults: Vec<Fault> = faults().into_iter().filter(|f| f.fault.contains(&wanted)).collect();
     let copy = package().join("target/faults/package");
     let copied = |fault: Option<&Fault>| {
-        PARTS.iter().for_each(|part| copy_changed(Path::new(part), &copy, fault));
+        let change = fault.map(|fault| (place(fault).unwrap(), &*fault.new));
+        PARTS.iter().for_each(|part| copy_changed(Path::new(part), &copy, change.as_ref()));
     };
     copied(None);
     for Fault { caught_by, .. } in &faults {
@@ -104,13 +113,13 @@ fn every_fault_is_caught() {
 
 /// Copies a file or folder of the package, with the fault applied; writes only what changes, so
 /// that only that is compiled again.
-fn copy_changed(path: &Path, copy: &Path, fault: Option<&Fault>) {
+fn copy_changed(path: &Path, copy: &Path, change: Option<&(patch::Place, &str)>) {
     let (from, to) = (package().join(path), copy.join(path));
     if from.is_dir() {
         let mut entries: Vec<PathBuf> =
             fs::read_dir(from).unwrap().map(|entry| path.join(entry.unwrap().file_name())).collect();
         entries.sort();
-        entries.iter().for_each(|entry| copy_changed(entry, copy, fault));
+        entries.iter().for_each(|entry| copy_changed(entry, copy, change));
         let gone = |file: &PathBuf| !package().join(path).join(file.file_name().unwrap()).exists();
         let copied = fs::read_dir(to).into_iter().flatten().map(|entry| entry.unwrap().path());
         copied
@@ -119,8 +128,8 @@ fn copy_changed(path: &Path, copy: &Path, fault: Option<&Fault>) {
         return;
     }
     let mut bytes = fs::read(from).unwrap();
-    if let Some(fault) = fault.filter(|fault| Path::new(&fault.file) == path) {
-        bytes = String::from_utf8(bytes).unwrap().replacen(&fault.old, &fault.new, 1).into_bytes();
+    if let Some((place, new)) = change.filter(|(place, _)| place.file == path) {
+        bytes = place.replaced(&String::from_utf8(bytes).unwrap(), new).into_bytes();
     }
     if fs::read(&to).ok().as_ref() != Some(&bytes) {
         fs::create_dir_all(to.parent().unwrap()).unwrap();
