@@ -34,7 +34,7 @@ pub use keys::{keys, schema};
 pub use light::Light;
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use material::{Material, Shader};
-pub use plan::{Item, Needs, ObjectPlan, Plan};
+pub use plan::{Images, Item, Needs, plan};
 pub use render::{Filter, Render};
 pub use sim::{Contact, Damping, Integrator, Precision, SelfCollision, Sim, Start};
 pub use validate::MAX_OBJECTS;

@@ -19,7 +19,7 @@ use drape::math::StateHash;
 use drape::output::compare::Difference;
 use drape::output::png::Pixels;
 use drape::render::{Options, Renderer, Shading};
-use drape::scene::{Collider, Filter, Plan, Scene, Shader};
+use drape::scene::{Collider, Filter, Images, Scene, Shader};
 use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
 
@@ -173,8 +173,7 @@ fn moved(scene: &Scene, watch: &dyn Fn(u32) -> Result<()>) -> Result<Option<Poin
 
 /// Every way that makes a difference for `scene`.
 fn ways(scene: &Scene, extent: &Extent) -> Vec<Way> {
-    let plan = Plan::of(scene);
-    let reads = !plan.textures.is_empty() || !plan.environments.is_empty();
+    let reads = !Images::of(scene).is_empty();
     let filters = if reads { vec![Some(false), Some(true)] } else { vec![None] };
     let resolutions = if scene.spheres().next().is_none() {
         vec![None]
