@@ -32,7 +32,7 @@ pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Spher
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
-pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
+pub use load::{Flag, Loaded, MAX_FILE, Overrides, check_value, load, load_stock, load_text};
 pub use material::{Material, Shader};
 pub use plan::{Images, Item, Needs, plan};
 pub use render::{Filter, Render};

@@ -65,7 +65,7 @@ pub(crate) fn defaults<T>(read: impl FnOnce(&mut Object) -> T) -> T {
 }
 
 /// An object without keys.
-static NOTHING: Node = Node { span: Span { source: 0, start: 0, end: 0 }, json: Json::Object(Vec::new()) };
+static NOTHING: Node = Node { span: Span::NOWHERE, json: Json::Object(Vec::new()) };
 
 impl Reader<'_> {
     fn object<T>(
