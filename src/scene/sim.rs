@@ -38,7 +38,7 @@ pub struct Sim {
 
 /// The scheme that advances the positions (`sim.integrator`).
 ///
-/// README has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
+/// docs/integrators.md has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
 /// implicit method was as accurate as Verlet's scheme at any stiffness that was tried, and fewer implicit steps
 /// can cost more, because each takes more iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
