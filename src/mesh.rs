@@ -7,7 +7,11 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::{
-    cloth::Points,
+    cloth::{
+        Points,
+        grid::Grid,
+        springs::{self, SpringKind},
+    },
     math::{cos, sin},
     scene::{Cloth, Needs, Plane, Sphere, Vec3},
 };
@@ -269,32 +273,19 @@ pub struct SpringKinds {
 impl SpringKinds {
     /// The kinds that a cloth has.
     pub fn of(cloth: &Cloth) -> Self {
-        Self {
-            structural: cloth.enable_structural,
-            shearing: cloth.enable_shearing,
-            bending: cloth.enable_bending,
-        }
+        let [structural, shearing, bending] = SpringKind::ALL.map(|kind| kind.is_enabled(cloth));
+        Self { structural, shearing, bending }
+    }
+
+    /// The kinds as a list.
+    fn list(self) -> Vec<SpringKind> {
+        let shown = [self.structural, self.shearing, self.bending];
+        SpringKind::ALL.into_iter().zip(shown).filter(|(_, shown)| *shown).map(|(kind, _)| kind).collect()
     }
 }
 
 /// The springs of a cloth as lines between its points, in the order in which they are created.
 pub fn spring_lines(cloth: &Cloth, kinds: SpringKinds) -> Vec<[u32; 2]> {
-    let (w, h) = (cloth.num_width_points, cloth.num_height_points);
-    let mut lines = Vec::new();
-    for j in 0..h {
-        for i in 0..w {
-            let mut add = |exists: bool, back: usize| {
-                if exists {
-                    lines.push([index(j * w + i), index(j * w + i - back)]);
-                }
-            };
-            add(kinds.structural && i >= 1, 1);
-            add(kinds.structural && j >= 1, w);
-            add(kinds.shearing && i >= 1 && j >= 1, w + 1);
-            add(kinds.shearing && i + 1 < w && j >= 1, w.wrapping_sub(1));
-            add(kinds.bending && i >= 2, 2);
-            add(kinds.bending && j >= 2, 2 * w);
-        }
-    }
-    lines
+    let grid = Grid { width: cloth.num_width_points, height: cloth.num_height_points };
+    springs::ends(grid, &kinds.list()).map(|ends| ends.map(index)).collect()
 }

@@ -6,11 +6,7 @@ use super::{
     clip,
     setup::{Corner, Viewport},
 };
-use crate::{
-    dispatch::{Work, dispatch},
-    mesh::Attributes,
-    shader::glsl::VertexProgram,
-};
+use crate::{lanes::level::dispatch_plain, mesh::Attributes, shader::glsl::VertexProgram};
 
 /// What the vertex stage puts out.
 #[derive(Clone, Debug, Default)]
@@ -30,22 +26,13 @@ pub(super) struct VertexBuffer {
 /// Vertices that one thread takes at a time.
 const GROUP: usize = 1024;
 
-/// Finds the places of vertices in the window.
-struct Place<'a> {
-    viewport: &'a Viewport,
-    positions: &'a [[f32; 4]],
-    corners: &'a mut [Corner],
-    outside: &'a mut [u8],
-}
-
-impl Work for Place<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let places = self.corners.iter_mut().zip(self.outside);
-        for (&position, (corner, outside)) in self.positions.iter().zip(places) {
-            *corner = self.viewport.corner(position);
-            *outside = clip::outside(position);
-        }
+/// Projects vertices into the window.
+#[inline(always)]
+fn project(viewport: &Viewport, positions: &[[f32; 4]], corners: &mut [Corner], outside: &mut [u8]) {
+    let projected = corners.iter_mut().zip(outside);
+    for (&position, (corner, outside)) in positions.iter().zip(projected) {
+        *corner = viewport.corner(position);
+        *outside = clip::outside(position);
     }
 }
 
@@ -74,7 +61,7 @@ impl VertexBuffer {
                 *position = output.0;
                 varyings[..N].copy_from_slice(&output.1);
             }
-            dispatch(Place { viewport, positions, corners, outside });
+            dispatch_plain!(project(viewport, positions, corners, outside));
         });
     }
 }

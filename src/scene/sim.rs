@@ -101,7 +101,7 @@ pub enum Damping {
 pub enum SelfCollision {
     /// Only within a point's own box, the report's.
     SameBox,
-    /// All, as comparing each point with every other would: `src/cloth/neighbors.rs`.
+    /// All, as comparing each point with every other would: `src/collision/neighbors.rs`.
     Neighbors,
     /// Not at all.
     Off,
@@ -113,6 +113,6 @@ pub enum Contact {
     /// Nothing, the report's: friction and the stretch limit leave points inside.
     Report,
     /// After every step no free point is inside a sphere, or beyond a plane from where it
-    /// started, except by rounding; where objects overlap, inside the last one: `src/cloth/contact.rs`.
+    /// started, except by rounding; where objects overlap, inside the last one: `src/collision/contact.rs`.
     Outside,
 }

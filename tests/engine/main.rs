@@ -10,8 +10,6 @@ mod cloth;
 mod gl;
 mod integrators;
 mod layers;
-#[path = "../support/naive/mod.rs"]
-mod naive;
 mod output;
 mod raster;
 mod render;
@@ -22,4 +20,6 @@ mod scene;
 mod scenes;
 mod shader;
 mod support;
+#[path = "../../examples/textbook_cloth.rs"]
+mod textbook_cloth;
 mod textures;

@@ -10,9 +10,9 @@ use crate::args::scene::Changes;
 use crate::run::advance::certain;
 use crate::session::Session;
 use crate::session::ui::paint;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
-use drape::scene::{self, Integrator, Material, Plan, Scene};
+use drape::scene::{self, Material, Plan, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
 
 /// What `check` takes.
@@ -123,12 +123,11 @@ fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
 
 /// Why the first step would be refused, if it would.
 fn instability(scene: &Scene) -> Option<Error> {
-    // No other integrator has a largest step.
-    let cloth = scene.cloth.as_ref().filter(|_| scene.sim.integrator == Integrator::Verlet)?;
-    match Stability::new(cloth, &scene.sim) {
+    let cloth = scene.cloth.as_ref()?;
+    match Stability::of_bounded(cloth, &scene.sim) {
         Ok(stability) => {
-            let unstable = stability.is_unstable_at_rest();
-            unstable.then(|| certain(&stability, cloth.ks, scene.sim.steps_per_frame))
+            let unstable = stability.filter(Stability::is_unstable_at_rest)?;
+            Some(certain(&unstable, cloth.ks, scene.sim.steps_per_frame))
         }
         Err(error) => Some(error),
     }

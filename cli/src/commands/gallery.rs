@@ -133,7 +133,7 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drape::cloth::stability::Stability;
+    use drape::diagnostics::stability::Stability;
     use drape_lab::gallery::table::parts;
 
     fn pictures() -> Vec<Picture> {

@@ -4,12 +4,11 @@ use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::run::advance::largest_ks;
-use crate::run::counts;
 use crate::session::Session;
-use drape::cloth::Constants;
-use drape::cloth::stability::Stability;
+use drape::cloth::{Params, springs};
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
-use drape::scene::{Cloth, Integrator, Item, Plan, Scene};
+use drape::scene::{Cloth, Item, Plan, Scene};
 
 /// What `info` takes.
 #[derive(clap::Args)]
@@ -122,10 +121,9 @@ impl Info {
 
 impl ClothInfo {
     fn of(cloth: &Cloth, scene: &Scene) -> Result<Self> {
-        let [structural, shearing, bending] = counts::springs(cloth);
-        let explicit = scene.sim.integrator == Integrator::Verlet;
-        let stability = explicit.then(|| Stability::new(cloth, &scene.sim)).transpose()?;
-        let Constants { mass, dt, .. } = Constants::new(cloth, &scene.sim);
+        let [structural, shearing, bending] = springs::counts(cloth);
+        let stability = Stability::of_bounded(cloth, &scene.sim)?;
+        let Params { mass, dt, .. } = Params::new(cloth, &scene.sim);
         Ok(Self {
             points: [cloth.num_width_points, cloth.num_height_points],
             structural,
@@ -217,7 +215,7 @@ impl Memory {
         // Colour and depth of a sample.
         const SAMPLE: usize = 4 * size_of::<f32>();
         let cloth = scene.cloth.as_ref().map_or(0, |cloth| {
-            let springs: usize = counts::springs(cloth).iter().sum();
+            let springs: usize = springs::counts(cloth).iter().sum();
             cloth.num_width_points * cloth.num_height_points * POINT + springs * size_of::<f64>()
         });
         let [width, height] = scene.render.size.map(u64::from);

@@ -4,11 +4,11 @@ use std::time::{Duration, Instant};
 
 use crate::session::Session;
 use crate::session::progress::Progress;
-use drape::cloth::rest::{Motion, RestWatch};
-use drape::cloth::stability::Stability;
 use drape::cloth::{Counters, Points};
+use drape::diagnostics::rest::{Motion, RestWatch};
+use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
-use drape::scene::{Integrator, Scene};
+use drape::scene::Scene;
 use drape::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
@@ -45,11 +45,7 @@ pub(crate) fn begin(
         if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
             return Err(error);
         }
-        // No other integrator has a largest step; the guard watches them while they run.
-        if scene.sim.integrator != Integrator::Verlet {
-            return Ok(simulation);
-        }
-        let stability = Stability::new(cloth, &scene.sim)?;
+        let Some(stability) = Stability::of_bounded(cloth, &scene.sim)? else { return Ok(simulation) };
         if stability.is_unstable_at_rest() {
             let error = certain(&stability, cloth.ks, scene.sim.steps_per_frame);
             if !allow_unstable {

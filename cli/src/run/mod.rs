@@ -2,5 +2,4 @@
 
 pub(crate) mod advance;
 pub(crate) mod bench;
-pub(crate) mod counts;
 pub(crate) mod table;

@@ -1,8 +1,8 @@
 //! The table of `simulate --csv`: a row a frame.
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::measure::Extremes;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::extremes::Extremes;
+use drape::diagnostics::ledger::Ledger;
 use drape::simulation::Simulation;
 use drape_lab::csv::Csv;
 

@@ -1,7 +1,7 @@
 //! The text under a picture: its parameters, the stability of its step, its energy.
 
 use super::shot::{Shot, State};
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::scene::{Cloth, Material, Scene, Shader};
 
 /// The parameters of a picture.

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::ledger::Ledger;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
 use drape::render::{Options, Picture, Renderer};
@@ -140,8 +140,8 @@ fn film(
     if ledger {
         simulation.record_ledger()?;
     }
-    let stability =
-        first.scene.cloth.as_ref().map(|cloth| Stability::new(cloth, &first.scene.sim)).transpose()?;
+    let cloth = first.scene.cloth.as_ref();
+    let stability = cloth.map(|cloth| Stability::of_bounded(cloth, &first.scene.sim)).transpose()?.flatten();
     shots
         .map(|(place, shot)| {
             while simulation.frame() < shot.frame {

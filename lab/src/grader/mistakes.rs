@@ -24,8 +24,8 @@ enum Change {
     Bending(f64),
     /// Height above a plane at which points are put back, in metres.
     PlaneOffset(f64),
-    /// What tells the boxes of self-collision apart.
-    BoxHash(fn([i64; 3]) -> i64),
+    /// What tells the cells of self-collision apart.
+    CellHash(fn([i64; 3]) -> i64),
 }
 
 impl Mistake {
@@ -43,7 +43,7 @@ impl Mistake {
         match self.change {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
             Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),
-            Some(Change::BoxHash(hash)) => simulation.set_box_hash(hash),
+            Some(Change::CellHash(hash)) => simulation.set_cell_hash(hash),
             None => {}
         }
         simulation.allow_unstable();
@@ -66,7 +66,7 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
         mistakes.extend(plane_offsets(scene));
     }
     if scene.sim.self_collision == SelfCollision::SameBox {
-        mistakes.extend(box_hashes(scene));
+        mistakes.extend(cell_hashes(scene));
     }
     mistakes
 }
@@ -135,17 +135,17 @@ fn plane_offsets(scene: &Scene) -> [Mistake; 2] {
     ]
 }
 
-/// Faulty hashes by which programs were found to tell boxes apart. A hash shows only where it merges
-/// neighbouring boxes: points of other boxes are not close.
-fn box_hashes(scene: &Scene) -> [Mistake; 2] {
+/// Faulty hashes by which programs were found to tell cells apart. A hash shows only where it merges
+/// neighbouring cells: points of other cells are not close.
+fn cell_hashes(scene: &Scene) -> [Mistake; 2] {
     let cut = "boxes by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
     let sum = "boxes told apart by x² + y² + z³ of coordinates cut towards zero";
     [
-        changed(cut, scene, Change::BoxHash(|numbers| joined(numbers.map(towards_zero)))),
+        changed(cut, scene, Change::CellHash(|numbers| joined(numbers.map(towards_zero)))),
         changed(
             sum,
             scene,
-            Change::BoxHash(|numbers| {
+            Change::CellHash(|numbers| {
                 let [x, y, z] = numbers.map(towards_zero).map(Wrapping);
                 (x * x + y * y + z * z * z).0
             }),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::outcome::{Outcome, run};
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::Scene;
 use drape::simulation::Simulation;

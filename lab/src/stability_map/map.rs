@@ -4,7 +4,7 @@
 //! A bound is `steps a second = ω / limit`, with the limit at rest or at worst and ω² from 8 ks/m (the
 //! fastest vibration of the lattice at rest), 12 ks/m (the fastest in any shape) or 17.6 ks/m
 //! (Gershgorin's circles, which use nothing but the stiffness that meets in a point);
-//! `src/cloth/stability.rs` derives the first two and the limit. Cells and columns do not depend on each
+//! `src/diagnostics/stability.rs` derives the first two and the limit. Cells and columns do not depend on each
 //! other: they are spread over threads, and the map is the same for every number of threads.
 
 use rayon::prelude::*;
@@ -12,7 +12,8 @@ use serde::Serialize;
 
 use super::outcome::{Run, run};
 use super::threshold::{at_rest, frames, in_motion};
-use drape::cloth::stability::Stability;
+use drape::cloth::springs::SpringKind;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Scene};
 
@@ -151,6 +152,6 @@ fn made_of(scene: &Scene, cloth: &Cloth, [density, ks]: [f64; 2]) -> Scene {
 
 /// Twice the stiffness that meets in a point with every spring, in N/m: 17.6 ks for all kinds.
 fn gershgorin(cloth: &Cloth) -> f64 {
-    let kinds = [(cloth.enable_structural, 4.0), (cloth.enable_shearing, 4.0), (cloth.enable_bending, 0.8)];
-    2.0 * cloth.ks * kinds.iter().filter(|(enabled, _)| *enabled).map(|(_, springs)| springs).sum::<f64>()
+    let kinds = SpringKind::ALL.into_iter().filter(|kind| kind.is_enabled(cloth));
+    2.0 * cloth.ks * kinds.map(|kind| 4.0 * kind.relative_stiffness()).sum::<f64>()
 }

@@ -1,6 +1,6 @@
 //! One run and its outcome.
 
-use drape::cloth::stability::is_always_stable;
+use drape::diagnostics::stability::is_always_stable;
 use drape::error::{Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
@@ -13,7 +13,7 @@ pub enum Outcome {
     Ok,
     /// A spring was stretched by more than twice what the stretch limit allows (the stretch bound).
     Stretch,
-    /// The cloth held more energy than its forces can give it (the energy bound, `src/cloth/guard.rs`).
+    /// The cloth held more energy than its forces can give it (the energy bound, `src/diagnostics/energy_bound.rs`).
     Energy,
     /// A position was not a number, or beyond 1e15 m.
     Lost,

@@ -7,10 +7,10 @@
 
 use super::outcome::run;
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::math::splitmix64;
-use drape::scene::{Cloth, Integrator, Scene, SelfCollision};
+use drape::scene::{Cloth, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
 /// Steps after which a vibration at rest that grows has become large. At the least damping a step that is
@@ -39,10 +39,7 @@ const NUDGE: f64 = 1e-8;
 /// # Errors
 /// As [`Simulation::new`].
 pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
-    let stability = Stability::new(cloth, &scene.sim)?;
-    if !has_limit(scene, &stability) {
-        return Ok(None);
-    }
+    let Some(stability) = limited(cloth, scene)? else { return Ok(None) };
     let expected = stability.omega_rest / stability.limit;
     let mut rest = scene.clone();
     rest.planes.clear();
@@ -64,10 +61,7 @@ pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
 /// # Errors
 /// As [`Simulation::new`].
 pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>> {
-    let stability = Stability::new(cloth, &scene.sim)?;
-    if !has_limit(scene, &stability) {
-        return Ok(None);
-    }
+    let Some(stability) = limited(cloth, scene)? else { return Ok(None) };
     let mut scene = scene.clone();
     let steps_per_frame = f64::from(scene.sim.steps_per_frame);
     let rest = stability.omega_rest / stability.limit;
@@ -85,9 +79,10 @@ pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>>
     }
 }
 
-/// Whether there is a step that is too long: Verlet's scheme, and springs that can vibrate.
-fn has_limit(scene: &Scene, stability: &Stability) -> bool {
-    scene.sim.integrator == Integrator::Verlet && stability.omega_rest > 0.0
+/// The stability of a cloth with a longest stable step: under an integrator that has one, and with springs that
+/// can vibrate.
+fn limited(cloth: &Cloth, scene: &Scene) -> Result<Option<Stability>> {
+    Ok(Stability::of_bounded(cloth, &scene.sim)?.filter(|stability| stability.omega_rest > 0.0))
 }
 
 /// The frames that `time` seconds take, at least one.

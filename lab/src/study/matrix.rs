@@ -4,8 +4,8 @@ use super::extent::Extent;
 use super::method::{METHODS, MODEL, Method, run_name};
 use super::rates::{clock, rates, springs_in};
 use super::source::Source;
-use drape::cloth::Constants;
-use drape::cloth::stability::Stability;
+use drape::cloth::Params;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 
@@ -117,7 +117,7 @@ fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Ext
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Internal, "the scene lost its cloth"));
     };
-    let mass = Constants::new(cloth, &scene.sim).mass;
+    let mass = Params::new(cloth, &scene.sim).mass;
     let Stability { omega_safe, limit_worst, .. } = Stability::new(cloth, &scene.sim)?;
     let stable_rate = (omega_safe / limit_worst).max(50.0);
     let rates = rates(stock, stable_rate, cloth, extent);

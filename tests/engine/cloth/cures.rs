@@ -4,7 +4,7 @@
 
 use crate::scenes;
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::math::{ln, powi};
 use drape::scene::{Contact, Damping, Scene, SelfCollision, Start, Vec3};
 use drape::simulation::Simulation;

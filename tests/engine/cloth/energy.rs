@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::scenes;
-use drape::cloth::ledger::Ledger;
+use drape::diagnostics::ledger::Ledger;
 use drape::math::powi;
 use drape::scene::{Scene, Vec3};
 use drape::simulation::Simulation;

@@ -6,7 +6,7 @@
 use crate::scenes;
 use std::collections::BTreeSet;
 
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Kind;
 use drape::math::powi;
 use drape::scene::{Cloth, Scene, SelfCollision, Sim, Vec3};

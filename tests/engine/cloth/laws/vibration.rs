@@ -1,7 +1,7 @@
 //! The fastest vibration, and the step that follows from it.
 
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::math::sin;
 use drape::scene::{Cloth, Scene, Vec3};
 use drape::simulation::Simulation;
