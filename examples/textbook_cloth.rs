@@ -172,8 +172,8 @@ impl<'a> Cloth<'a> {
         let scene = self.scene;
         for p in 0..self.x.len() {
             if !self.pinned[p] {
-                scene.planes.iter().for_each(|plane| self.collide_with_plane(p, plane));
-                scene.spheres.iter().for_each(|sphere| self.collide_with_sphere(p, sphere));
+                scene.planes().for_each(|plane| self.collide_with_plane(p, plane));
+                scene.spheres().for_each(|sphere| self.collide_with_sphere(p, sphere));
             }
         }
     }

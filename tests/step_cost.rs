@@ -20,7 +20,7 @@ fn cost(scene: &Scene, frames: usize) -> Counters {
 /// The sphere scene with a floor, in which every phase has something to do.
 fn everything() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
+    scenes::add_plane(&mut scene, scenes::floor());
     scene
 }
 

@@ -15,9 +15,9 @@ pub struct Counters {
     pub unsolved_steps: u64,
     /// Points that the integrator moved on.
     pub points_advanced: u64,
-    /// Boxes of two or more points that self-collision looked into.
+    /// Cells of two or more points that self-collision searched.
     pub boxes_searched: u64,
-    /// Pairs of points that shared a box, once a step.
+    /// Pairs of points that shared a cell or lay in neighbouring ones, once a step.
     pub pairs_tested: u64,
     /// Points that self-collision moved.
     pub self_collision_moves: u64,

@@ -23,7 +23,7 @@ use crate::scene::Vec3;
 const BLOCK: usize = 8;
 
 /// What an object is to points that collide with it.
-pub(super) trait Shape: Sync {
+pub(crate) trait Shape: Sync {
     /// Whether a point that moved from `last` to `x` hit the object.
     fn hit(&self, x: Vec3, last: Vec3) -> bool;
 

@@ -4,13 +4,13 @@
 //! over one list of them, [`Colliders`]. A collider is added as a variant here, a file beside
 //! `sphere.rs` that says what [`contact::Shape`] asks, and a row of the scene's list.
 
-use contact::Shape;
+pub(crate) use contact::Shape;
 use plane::Plane;
 
 use crate::cloth::grid::Pins;
 use crate::cloth::{Counters, Points};
 use crate::error::Result;
-use crate::scene::{Contact, Scene, Sphere, Vec3};
+use crate::scene::{self, ColliderKind, Contact, Scene, Sphere};
 
 mod axis;
 mod cell;
@@ -23,18 +23,6 @@ pub(crate) mod self_collision;
 mod separation;
 mod sphere;
 mod uniform_grid;
-
-/// A kind of object to collide with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ColliderKind {
-    Plane,
-    Sphere,
-}
-
-impl ColliderKind {
-    /// Every kind, in the order of the phases.
-    pub(crate) const ALL: [Self; 2] = [Self::Plane, Self::Sphere];
-}
 
 /// An object that the cloth collides with, ready for the step.
 #[derive(Clone, Debug)]
@@ -52,7 +40,7 @@ impl Collider {
     }
 }
 
-/// The objects of a scene in the order in which the cloth collides with them: planes, then spheres.
+/// The objects of a scene in the order in which the cloth collides with them.
 #[derive(Clone, Debug)]
 pub(crate) struct Colliders {
     list: Vec<(ColliderKind, Collider)>,
@@ -67,10 +55,14 @@ impl Colliders {
     pub(crate) fn new(scene: &Scene, x: &Points) -> Result<Self> {
         let contact = scene.sim.contact;
         let kept_outside = (contact == Contact::Outside).then_some(x);
-        let plane = |plane| Ok((ColliderKind::Plane, Collider::Plane(Plane::new(plane, kept_outside)?)));
-        let sphere = |sphere: &Sphere| Ok((ColliderKind::Sphere, Collider::Sphere(sphere.clone())));
-        let list = scene.planes.iter().map(plane).chain(scene.spheres.iter().map(sphere));
-        Ok(Self { list: list.collect::<Result<_>>()?, contact })
+        let prepare = |collider: &scene::Collider| {
+            let prepared = match collider {
+                scene::Collider::Plane(plane) => Collider::Plane(Plane::new(plane, kept_outside)?),
+                scene::Collider::Sphere(sphere) => Collider::Sphere(sphere.clone()),
+            };
+            Ok((collider.kind(), prepared))
+        };
+        Ok(Self { list: scene.colliders.iter().map(prepare).collect::<Result<_>>()?, contact })
     }
 
     /// Whether there is none.
@@ -96,7 +88,8 @@ impl Colliders {
         self.of(kind).for_each(|shape| shape.resolve_points(x, last, pins, counters));
     }
 
-    /// The end of a step for the objects of one kind: puts every unpinned point outside.
+    /// The end of a step for the objects of one kind: puts every unpinned point outside, if the scene asks
+    /// for it.
     pub(crate) fn depenetrate(
         &self,
         kind: ColliderKind,
@@ -104,18 +97,19 @@ impl Colliders {
         pins: &Pins,
         counters: &mut Counters,
     ) {
-        self.of(kind).for_each(|shape| shape.depenetrate_points(x, pins, counters));
+        if self.keep_outside() {
+            self.of(kind).for_each(|shape| shape.depenetrate_points(x, pins, counters));
+        }
+    }
+
+    /// What each object is to points.
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = &dyn Shape> {
+        self.list.iter().map(|(_, collider)| collider.shape())
     }
 
     /// The farthest that one of the objects puts a point beyond its surface, in metres.
-    pub(crate) fn lift(&self) -> f64 {
-        self.list.iter().map(|(_, collider)| collider.shape().lift()).fold(0.0, f64::max)
-    }
-
-    /// For each object, how far one step moves a point that starts inside it at the place given, in
-    /// metres.
-    pub(crate) fn depths(&self) -> impl Iterator<Item = impl Fn(Vec3) -> f64> {
-        self.list.iter().map(|(_, collider)| move |x| collider.shape().depth(x))
+    pub(crate) fn largest_lift(&self) -> f64 {
+        self.shapes().map(Shape::lift).fold(0.0, f64::max)
     }
 
     /// Puts points that hit a plane so many metres above it, on the side from which they came.
@@ -135,12 +129,13 @@ impl Colliders {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Vec3;
 
     #[test]
     fn points_leave_on_their_own_side_and_others_stay() {
         let text = r#"{"plane": {"point": [0, 1, 0], "normal": [0, 2, 0], "friction": 0},
                 "sphere": {"origin": [1, 2, 3], "radius": 0.5, "friction": 0}, "sim": {"contact": "outside"}}"#;
-        let scene = crate::scene::load_text("a.json", text, &Default::default()).unwrap().scene;
+        let scene = scene::load_text("a.json", text, &Default::default()).unwrap().scene;
         let mut x = Points::zeros(5).unwrap();
         [1.0, 1.5, 0.5, 2.0, 2.0].iter().enumerate().for_each(|(p, &y)| x.set(p, Vec3::new(0.0, y, 0.0)));
         x.set(3, Vec3::new(1.0, 2.0, 3.0));
@@ -151,7 +146,7 @@ mod tests {
         x.set(2, Vec3::new(0.0, 1.25, 0.0));
         let pins = Pins { pinned: vec![false; 5], free: vec![0..2, 2..5] };
         let mut counters = Counters::default();
-        for kind in ColliderKind::ALL {
+        for &kind in ColliderKind::ALL {
             colliders.depenetrate(kind, &mut x, &pins, &mut counters);
         }
         assert!((1.0..1.0 + 1e-13).contains(&x.y[0]) && (1.0..1.0 + 1e-13).contains(&x.y[1]), "above: {x:?}");

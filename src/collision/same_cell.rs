@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::lanes::level::dispatch_plain;
 use crate::scene::{Cloth, Sim};
 
-/// Most cells of a piece of a large cloth: about a thousand points.
+/// Most cells of a chunk of a large cloth: about a thousand points.
 const CELLS: usize = 128;
 
 /// Just above 1: see [`Separation::new`].

@@ -15,8 +15,8 @@
 //!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
 //!   points together; but where neighbours start too close, nothing did: for each such point
 //!   `m (2 thickness - l)² / (2 T dt²)`;
-//! - a plane puts a point at a small offset above it: `M (offset / dt)² / 2`;
-//! - a sphere in which points start pushes them out in one step: `m (depth / dt)² / 2` each;
+//! - an object that puts points a little beyond its surface (a plane): `M (lift / dt)² / 2`;
+//! - an object that puts points in one step outside that start inside it (a sphere): `m (depth / dt)² / 2` each;
 //! - rounding.
 //!
 //! A blow-up that the stretch limit holds below this bound is visible only in the energy ledger: in every
@@ -37,7 +37,8 @@ use super::stability::is_bounded_and_always_stable;
 use crate::cloth::grid::Grid;
 use crate::cloth::springs::Springs;
 use crate::cloth::{Params, Points, len};
-use crate::scene::{Cloth, Scene, SelfCollision, Vec3};
+use crate::collision::Colliders;
+use crate::scene::{Cloth, Scene, SelfCollision};
 
 /// Largest coordinate, in metres: as large as any number that a scene may hold.
 pub(crate) const RANGE: f64 = 1e15;
@@ -48,7 +49,7 @@ const ROUNDING: f64 = 1e-9;
 /// The part of the bound that a scene gives, whatever the start.
 #[derive(Clone, Debug)]
 pub(crate) struct Allowance {
-    /// For the finite step, self-collision and planes, in J.
+    /// For the finite step, self-collision and objects that lift points, in J.
     fixed: f64,
     grid: Grid,
     /// Distance that self-collision keeps, in metres; 0 without it.
@@ -58,9 +59,14 @@ pub(crate) struct Allowance {
 }
 
 impl Allowance {
-    /// The allowance of the cloth of `scene`, which has `springs` and is put at most `lift`, in metres,
-    /// beyond the surface of an object.
-    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params, lift: f64) -> Self {
+    /// The allowance of the cloth of `scene`, which has `springs`.
+    pub(crate) fn new(
+        scene: &Scene,
+        cloth: &Cloth,
+        springs: &Springs,
+        colliders: &Colliders,
+        params: &Params,
+    ) -> Self {
         let Params { mass, dt, .. } = *params;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
         let distance = match scene.sim.self_collision {
@@ -69,19 +75,18 @@ impl Allowance {
         };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
         fixed += motion(all, distance / params.steps_per_frame / dt) + stretched_to(distance, springs);
-        fixed += motion(all, lift / dt);
+        fixed += motion(all, colliders.largest_lift() / dt);
         let bounds_exchange = !is_bounded_and_always_stable(cloth, &scene.sim);
         Self { fixed, grid: springs.grid, distance, bounds_exchange }
     }
 
-    /// The bound of a cloth that starts at `x` with `energy`. Each of `depths` is how far one step moves
-    /// a point that starts inside an object at the place given, in metres.
+    /// The bound of a cloth that starts at `x` with `energy`.
     pub(crate) fn energy_bound(
         &self,
         x: &Points,
         energy: Energy,
+        colliders: &Colliders,
         params: &Params,
-        depths: impl Iterator<Item = impl Fn(Vec3) -> f64>,
     ) -> EnergyBound {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
         let Params { dt, steps_per_frame, .. } = *params;
@@ -89,9 +94,9 @@ impl Allowance {
             let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
             allowance += motion(params.mass, depth / (dt * steps_per_frame.sqrt()));
         }
-        for depth in depths {
-            let energies = (0..x.len()).map(|p| motion(params.mass, depth(x.get(p)) / dt));
-            allowance += energies.sum::<f64>();
+        for shape in colliders.shapes() {
+            let speed = |p| shape.depth(x.get(p)) / params.dt;
+            allowance += (0..x.len()).map(|p| motion(params.mass, speed(p))).sum::<f64>();
         }
         EnergyBound { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
     }

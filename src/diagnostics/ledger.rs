@@ -17,6 +17,8 @@
 //! `d1 - d0` beside the drag, times m / dt². So the energy that an integrator loses by itself is entered
 //! for the springs and gravity.
 
+use crate::scene::PerKind;
+
 /// What was put into the total energy (positive) or taken out (negative), in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Ledger {
@@ -28,30 +30,27 @@ pub struct Ledger {
     pub damping: f64,
     /// By moving close points of the cloth apart.
     pub self_collision: f64,
-    /// By contact with planes.
-    pub planes: f64,
-    /// By contact with spheres.
-    pub spheres: f64,
+    /// By contact with the colliders of each kind.
+    #[serde(flatten)]
+    pub colliders: PerKind<f64>,
     /// By shortening springs that are too long.
     pub stretch_limit: f64,
 }
 
 impl Ledger {
     /// Each entry with its name, in the order of a step.
-    pub fn entries(self) -> [(&'static str, f64); 7] {
-        [
+    pub fn entries(self) -> impl Iterator<Item = (&'static str, f64)> {
+        let before = [
             ("gravity", self.gravity),
             ("springs", self.springs),
             ("damping", self.damping),
             ("self_collision", self.self_collision),
-            ("planes", self.planes),
-            ("spheres", self.spheres),
-            ("stretch_limit", self.stretch_limit),
-        ]
+        ];
+        before.into_iter().chain(self.colliders.entries()).chain([("stretch_limit", self.stretch_limit)])
     }
 
     /// All entries together: the change of the total energy but for rounding.
     pub fn sum(self) -> f64 {
-        self.entries().iter().map(|(_, entry)| entry).sum()
+        self.entries().map(|(_, entry)| entry).sum()
     }
 }

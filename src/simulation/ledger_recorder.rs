@@ -4,8 +4,7 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::{Params, Points, dot};
-use crate::collision::ColliderKind;
-use crate::diagnostics::energy::{Energy, spring_energy};
+use crate::diagnostics::energy::spring_energy;
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
 
@@ -48,7 +47,7 @@ impl LedgerRecorder {
 
     /// What each part put in since the frame began, by name.
     pub(super) fn since_frame_start(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let pairs = self.ledger.entries().into_iter().zip(self.frame_start.entries());
+        let pairs = self.ledger.entries().zip(self.frame_start.entries());
         pairs.map(|((name, now), (_, before))| (name, now - before))
     }
 
@@ -71,9 +70,16 @@ impl LedgerRecorder {
     }
 
     /// Enters what a phase after the integrator's did.
-    fn record_correction(&mut self, energy: Energy, entry: fn(&mut Ledger) -> &mut f64) {
-        *entry(&mut self.ledger) += energy.total() - self.total;
-        self.total = energy.total();
+    fn record_correction(&mut self, phase: Phase, total: f64) {
+        let ledger = &mut self.ledger;
+        let entry = match phase {
+            Phase::Forces | Phase::Integration => return,
+            Phase::SelfCollision => &mut ledger.self_collision,
+            Phase::Collision(kind) | Phase::Depenetration(kind) => &mut ledger.colliders[kind],
+            Phase::StretchLimit => &mut ledger.stretch_limit,
+        };
+        *entry += total - self.total;
+        self.total = total;
     }
 }
 
@@ -86,24 +92,11 @@ impl Observer for LedgerRecorder {
     }
 
     fn after(&mut self, phase: Phase, cloth: &State) {
-        if !cloth.has(phase) {
-            return;
+        match phase {
+            _ if !cloth.has(phase) => {}
+            Phase::Forces => {}
+            Phase::Integration => self.record_integration(cloth),
+            _ => self.record_correction(phase, cloth.energy().total()),
         }
-        let entry: fn(&mut Ledger) -> &mut f64 = match phase {
-            Phase::Forces => return,
-            Phase::Integration => return self.record_integration(cloth),
-            Phase::SelfCollision => |ledger| &mut ledger.self_collision,
-            Phase::Collision(kind) | Phase::Depenetration(kind) => entry_of(kind),
-            Phase::StretchLimit => |ledger| &mut ledger.stretch_limit,
-        };
-        self.record_correction(cloth.energy(), entry);
-    }
-}
-
-/// The entry of the objects of a kind.
-fn entry_of(kind: ColliderKind) -> fn(&mut Ledger) -> &mut f64 {
-    match kind {
-        ColliderKind::Plane => |ledger| &mut ledger.planes,
-        ColliderKind::Sphere => |ledger| &mut ledger.spheres,
     }
 }

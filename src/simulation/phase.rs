@@ -1,6 +1,6 @@
 //! The phases of a step.
 
-use crate::collision::ColliderKind;
+use crate::scene::ColliderKind;
 
 /// A phase of a step, in the order in which they come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,10 +11,10 @@ pub(super) enum Phase {
     Integration,
     /// 3: close points of the cloth move apart.
     SelfCollision,
-    /// 4: points that hit an object of a kind are put back on its surface.
+    /// 4: the contacts with the objects of one kind are resolved.
     Collision(ColliderKind),
     /// 5: springs that are too long are shortened.
     StretchLimit,
-    /// At the end: points that are still inside an object of a kind are put outside.
+    /// After the step: points that are still inside an object of one kind are put outside.
     Depenetration(ColliderKind),
 }

@@ -6,13 +6,13 @@ use crate::cloth::grid::{self, Grid, Pins};
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Counters, Model, Params, Points};
+use crate::collision::Colliders;
 use crate::collision::self_collision::SelfCollision;
-use crate::collision::{ColliderKind, Colliders};
 use crate::diagnostics::energy::Energy;
 use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
 use crate::integrator::{self, Integrator};
-use crate::scene::{Plan, Scene, Start};
+use crate::scene::{ColliderKind, Plan, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]
@@ -51,8 +51,8 @@ impl State {
         let springs = Springs::new(cloth, grid, &x)?;
         let params = Params::new(cloth, sim);
         let limit = |limit| StretchLimit::new(limit, sim.stretch_passes, &springs);
-        let integrator = integrator::create(cloth, sim, &springs)?;
         let colliders = Colliders::new(scene, &x)?;
+        let integrator = integrator::create(cloth, sim, &springs)?;
         let mut state = Self {
             params,
             grid,
@@ -63,7 +63,7 @@ impl State {
             work: Counters::default(),
             energy_bound: EnergyBound::default(),
             frame_start: vec![Points::zeros(grid.len())?; 2 + integrator.memory().len()],
-            allowance: Allowance::new(scene, cloth, &springs, &params, colliders.lift()),
+            allowance: Allowance::new(scene, cloth, &springs, &colliders, &params),
             colliders,
             integrator,
             springs,
@@ -91,8 +91,8 @@ impl State {
 
     /// Takes the state as the start that the energy is held against.
     pub(super) fn set_energy_bound(&mut self) {
-        let (energy, depths) = (self.energy(), self.colliders.depths());
-        self.energy_bound = self.allowance.energy_bound(&self.x, energy, &self.params, depths);
+        self.energy_bound =
+            self.allowance.energy_bound(&self.x, self.energy(), &self.colliders, &self.params);
     }
 
     /// The energies.
@@ -128,8 +128,9 @@ impl State {
         }
     }
 
-    pub(super) fn collide_with(&mut self, kind: ColliderKind) {
-        self.colliders.resolve(kind, &mut self.x, &self.last, &self.pins, &mut self.work);
+    pub(super) fn collide(&mut self, kind: ColliderKind) {
+        let Self { colliders, x, last, pins, work, .. } = self;
+        colliders.resolve(kind, x, last, pins, work);
     }
 
     pub(super) fn limit_stretch(&mut self) {
@@ -139,9 +140,7 @@ impl State {
     }
 
     pub(super) fn depenetrate(&mut self, kind: ColliderKind) {
-        if self.colliders.keep_outside() {
-            self.colliders.depenetrate(kind, &mut self.x, &self.pins, &mut self.work);
-        }
+        self.colliders.depenetrate(kind, &mut self.x, &self.pins, &mut self.work);
     }
 }
 

@@ -4,7 +4,7 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::Counters;
-use crate::collision::ColliderKind;
+use crate::scene::ColliderKind;
 
 impl State {
     /// Makes a step. The phases after the integration change positions and never `last`.
@@ -24,9 +24,9 @@ impl State {
         self.collide_with_itself();
         observer.after(Phase::SelfCollision, self);
 
-        // 4. Objects: points that hit one are put back on its surface.
-        for kind in ColliderKind::ALL {
-            self.collide_with(kind);
+        // 4. Collision: points that hit an object during the step are put on its surface.
+        for &kind in ColliderKind::ALL {
+            self.collide(kind);
             observer.after(Phase::Collision(kind), self);
         }
 
@@ -34,8 +34,8 @@ impl State {
         self.limit_stretch();
         observer.after(Phase::StretchLimit, self);
 
-        // Where the scene asks for it: points that are inside an object after all this are put outside.
-        for kind in ColliderKind::ALL {
+        // Where the scene asks for it: points that are still inside an object are put outside.
+        for &kind in ColliderKind::ALL {
             self.depenetrate(kind);
             observer.after(Phase::Depenetration(kind), self);
         }

@@ -17,7 +17,7 @@ pub struct Timings {
     pub solver: u64,
     /// Phase 3: close points of the cloth.
     pub self_collision: u64,
-    /// Phase 4: planes and spheres.
+    /// Phase 4, and what keeps points outside: the objects of the scene.
     pub objects: u64,
     /// Phase 5: springs that are too long.
     pub stretch_limit: u64,

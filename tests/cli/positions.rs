@@ -109,12 +109,12 @@ fn a_missing_offset_of_the_plane_is_named() {
 }
 
 #[test]
-fn boxes_that_are_taken_for_one_are_named() {
+fn cells_that_are_taken_for_one_are_named() {
     let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1").replace("0.0095", "0.06");
     let none = Mistakes::default();
     for (mistakes, name) in [
-        (Mistakes { cut_boxes: true, ..none }, "boxes by coordinates cut towards zero"),
-        (Mistakes { float_hash: true, ..none }, "boxes told apart by x² + y² + z³"),
+        (Mistakes { cut_boxes: true, ..none }, "cells by coordinates cut towards zero"),
+        (Mistakes { float_hash: true, ..none }, "cells told apart by x² + y² + z³"),
     ] {
         let verdict = verdict(&text, mistakes, 10);
         assert!(verdict.starts_with(&format!("this behaves like the mistake: {name}")), "{verdict}");

@@ -10,7 +10,10 @@ mod cloth;
 mod gl;
 mod integrators;
 mod layers;
+mod msrv;
 mod output;
+mod pages;
+mod promises;
 mod raster;
 mod render;
 #[path = "../support/repository.rs"]

@@ -299,9 +299,9 @@ fn no_implicit_method_is_on_the_front() {
     assert!(implicit.len() > 10, "{} rows", implicit.len());
     for row in implicit {
         let is_worse_than = |other: &&Row| {
-            let moments = (0..2).filter(|&moment| !row.value(moment).is_nan());
+            let mut moments = (0..2).filter(|&moment| !row.value(moment).is_nan());
             let [cost, other_cost] = [row, *other].map(|row| row.value(4));
-            other_cost < cost && moments.map(|moment| other.value(moment) < row.value(moment)).all(|is| is)
+            other_cost < cost && moments.all(|moment| other.value(moment) < row.value(moment))
         };
         let mut verlet = rows
             .iter()

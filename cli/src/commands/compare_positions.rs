@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::args::frames::Frames;
 use crate::args::scene::{Leniency, SceneArgs, frame_at};
-use crate::run::advance::begin;
+use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::progress::{Progress, Tally};
 use drape::cloth::Points;
@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// The frames of the states in the file, from A up to, without, B (default: found by their number)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
-    /// Largest distance between two points that is let pass, in metres; 0 asks for equal bits
+    /// Largest accepted distance between two points, in metres; 0 asks for equal bits
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]
@@ -75,7 +75,7 @@ impl Args {
         session: &Session,
     ) -> Result<Vec<Ours>> {
         let last_frame = first_frame + count as u64 - 1;
-        let simulation = begin(scene, last_frame, start, self.leniency.allow_unstable, session)?;
+        let simulation = start_from(scene, last_frame, start, self.leniency.allow_unstable, session)?;
         let mut progress = Progress::new(&session.ui, "simulating", last_frame);
         Ours::simulate(simulation, first_frame, count, |simulation| {
             progress.set(simulation.frame());

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::Parser;
 use serde::Serialize;
 
 use crate::args::render::size;
-use crate::arguments::{Arguments, Command};
+use crate::commands::render;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
 use drape_lab::gallery::page;
@@ -91,23 +91,18 @@ impl Args {
     ) -> Result<()> {
         let folder = self.out.display().to_string();
         let made = if self.pictures { self.out.clone() } else { self.out.join(INDEX) };
-        session.ui.note(&format!("{}: figures {figures}, pictures {}", made.display(), shown.len()));
-        if !session.ui.json {
-            return Ok(());
-        }
+        let line = format!("{}: figures {figures}, pictures {}", made.display(), shown.len());
         let pictures = pictures.iter().zip(shown);
         let pictures =
             pictures.map(|(picture, shown)| Made { name: &picture.name, state: shown.state }).collect();
-        session.print_json(&Summary { folder, pictures })
+        session.report(&Summary { folder, pictures }, &line)
     }
 }
 
 /// What the command line makes of a picture's command, a `drape render` of built-in files.
 fn read(picture: &Picture) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
-    let arguments =
-        Arguments::try_parse_from(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
-    let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
+    let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
     let mut scene = render.scene.load_stock()?;
     render.look.apply(&mut scene);
     let until = render.moment.until(&scene);

@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::advance::largest_ks;
+use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
-use drape::scene::{Cloth, Item, Plan, Scene};
+use drape::scene::{Cloth, Item, PerKind, Plan, Scene};
 
 /// What `info` takes.
 #[derive(clap::Args)]
@@ -27,8 +27,8 @@ struct Info {
     time: f64,
     frames: u64,
     cloth: Option<ClothInfo>,
-    planes: usize,
-    spheres: usize,
+    #[serde(flatten)]
+    colliders: PerKind<usize>,
     memory: Memory,
     needs: Vec<Item>,
 }
@@ -92,8 +92,7 @@ impl Info {
             time: scene.render.time,
             frames: frame_at(None, scene),
             cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
-            planes: scene.planes.len(),
-            spheres: scene.spheres.len(),
+            colliders: scene.collider_counts(),
             memory: Memory::of(scene),
             needs: Plan::of(scene).items,
         })
@@ -102,17 +101,18 @@ impl Info {
     fn text(&self) -> String {
         let [width, height] = self.size;
         let needs: String = self.needs.iter().map(need).collect();
+        let colliders: Vec<String> =
+            self.colliders.entries().map(|(plural, count)| format!("{plural} {count}")).collect();
         format!(
             "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
-             objects     planes {}, spheres {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+             objects     {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
             self.samples,
             self.time,
             self.frames,
             self.fps,
             self.steps_per_frame,
             self.cloth.as_ref().map_or_else(|| "cloth       none\n".to_owned(), ClothInfo::text),
-            self.planes,
-            self.spheres,
+            colliders.join(", "),
             self.memory.cloth,
             self.memory.picture,
         )

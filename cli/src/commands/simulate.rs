@@ -6,11 +6,13 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::args::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
-use crate::run::advance::{Until, advance_until, start};
+use crate::run::advance::{Until, advance_until};
+use crate::run::start::start;
 use crate::run::table::Table;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::cloth::{Counters, springs};
 use drape::diagnostics::energy::Energy;
 use drape::diagnostics::ledger::Ledger;
@@ -141,7 +143,7 @@ impl Args {
             hashes.push(hash);
             return Ok(());
         }
-        atomic::write_stdout(format!("{} {hash}\n", now.frame()).as_bytes())
+        session.print_text(format!("{} {hash}\n", now.frame()))
     }
 
     fn write_table(&self, table: Option<&Table>) -> Result<()> {

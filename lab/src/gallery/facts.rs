@@ -40,10 +40,7 @@ fn cloth_parameters(cloth: &Cloth) -> String {
 
 /// The parameters of how the objects are drawn.
 fn drawing(scene: &Scene) -> Vec<String> {
-    let cloth = scene.cloth.as_ref().map(|cloth| &cloth.material);
-    let Some(material) = cloth.or(scene.spheres.first().map(|sphere| &sphere.material)) else {
-        return Vec::new();
-    };
+    let Some(material) = scene.materials().next() else { return Vec::new() };
     let Material { shader, ka, kd, ks, normal_scaling, height_scaling, .. } = material;
     let mut parts = vec![format!("shader {}", shader.name())];
     if *shader == Shader::Phong {
@@ -56,7 +53,7 @@ fn drawing(scene: &Scene) -> Vec<String> {
         let color = scene.light.color;
         parts.push(format!("light ({}, {}, {})", color.x, color.y, color.z));
     }
-    let balls = scene.spheres.iter().map(|sphere| sphere.resolution);
+    let balls = scene.spheres().map(|sphere| sphere.resolution);
     parts.extend(balls.map(|[latitudes, longitudes]| format!("ball of {latitudes} × {longitudes} cells")));
     parts
 }
@@ -85,7 +82,7 @@ pub(super) fn ledger(state: &State) -> String {
     let Some(ledger) = state.ledger.filter(|_| state.frame > 0) else {
         return "Nothing has moved yet.".to_owned();
     };
-    let entries = ledger.entries().into_iter().filter(|(_, joule)| *joule != 0.0);
+    let entries = ledger.entries().filter(|(_, joule)| *joule != 0.0);
     let entries: Vec<_> =
         entries.map(|(name, joule)| format!("{} {}", name.replace('_', " "), joules(joule))).collect();
     format!(

@@ -68,14 +68,9 @@ impl Shot {
             (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
             (a, b) => a.is_none() && b.is_none(),
         };
-        let planes = |scene: &Scene| -> Vec<_> {
-            scene.planes.iter().map(|plane| (plane.point, plane.normal, plane.friction)).collect()
-        };
-        let spheres = |scene: &Scene| -> Vec<_> {
-            scene.spheres.iter().map(|sphere| (sphere.origin, sphere.radius, sphere.friction)).collect()
-        };
-        let same_world = a.sim == b.sim && planes(a) == planes(b) && spheres(a) == spheres(b);
-        cloth && same_world && self.allow_unstable == other.allow_unstable
+        let colliders = a.colliders.len() == b.colliders.len()
+            && a.colliders.iter().zip(&b.colliders).all(|(a, b)| a.collides_like(b));
+        cloth && colliders && a.sim == b.sim && self.allow_unstable == other.allow_unstable
     }
 }
 

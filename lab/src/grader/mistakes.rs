@@ -5,7 +5,7 @@ use std::num::Wrapping;
 use drape::cloth::Points;
 use drape::cloth::springs::SpringKind;
 use drape::error::Result;
-use drape::scene::{Cloth, Orientation, Scene, SelfCollision};
+use drape::scene::{Cloth, Collider, Orientation, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
 /// A mistake, and the simulation that does what the mistaken program does.
@@ -62,7 +62,7 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
     if cloth.enable_bending && cloth.ks > 0.0 {
         mistakes.extend(bending(scene, cloth.ks));
     }
-    if !scene.planes.is_empty() {
+    if scene.planes().next().is_some() {
         mistakes.extend(plane_offsets(scene));
     }
     if scene.sim.self_collision == SelfCollision::SameBox {
@@ -109,12 +109,12 @@ fn scenes(scene: &Scene) -> Vec<Mistake> {
         with("no stretch limit", |scene| scene.sim.stretch_limit = None),
         with("no self-collision", |scene| scene.sim.self_collision = SelfCollision::Off),
         with_cloth("self-collision from thickness on, not from twice that", |cloth| cloth.thickness *= 0.5),
-        with("self-collision with points of other boxes too (boxes told apart by a hash)", |scene| {
+        with("self-collision with points of other cells too (cells told apart by a hash)", |scene| {
             scene.sim.self_collision = SelfCollision::Neighbors;
         }),
         with("friction f where 1 - f belongs", |scene| {
-            scene.planes.iter_mut().for_each(|plane| plane.friction = 1.0 - plane.friction);
-            scene.spheres.iter_mut().for_each(|sphere| sphere.friction = 1.0 - sphere.friction);
+            let frictions = scene.colliders.iter_mut().map(Collider::friction_mut);
+            frictions.for_each(|friction| *friction = 1.0 - *friction);
         }),
     ]
 }
@@ -138,8 +138,8 @@ fn plane_offsets(scene: &Scene) -> [Mistake; 2] {
 /// Faulty hashes by which programs were found to tell cells apart. A hash shows only where it merges
 /// neighbouring cells: points of other cells are not close.
 fn cell_hashes(scene: &Scene) -> [Mistake; 2] {
-    let cut = "boxes by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
-    let sum = "boxes told apart by x² + y² + z³ of coordinates cut towards zero";
+    let cut = "cells by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
+    let sum = "cells told apart by x² + y² + z³ of coordinates cut towards zero";
     [
         changed(cut, scene, Change::CellHash(|numbers| joined(numbers.map(towards_zero)))),
         changed(

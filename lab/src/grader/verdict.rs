@@ -11,7 +11,7 @@ use super::states::State;
 use super::trials::{self, Tried, WINDOW};
 use drape::cloth::Counters;
 use drape::error::Result;
-use drape::scene::{Orientation, Scene};
+use drape::scene::{ColliderKind, Orientation, Scene};
 use drape::simulation::Simulation;
 use rayon::prelude::*;
 
@@ -182,13 +182,16 @@ fn wrong_numbers(
 /// The verdict when no mistake explains the difference: what had acted on the cloth before it.
 fn suspects(case: &Case<'_>, counters: Counters) -> String {
     let touched = counters.object_moves > 0;
-    let acted = [
-        (counters.self_collision_moves > 0, "self-collision (order of points, of boxes)"),
-        (touched && !case.scene.planes.is_empty(), "collision with planes (its side, friction)"),
-        (touched && !case.scene.spheres.is_empty(), "collision with spheres (friction, the centre)"),
-        (counters.springs_limited > 0, "the stretch limit (its order, pinned ends)"),
-    ];
-    let names: Vec<&str> = acted.iter().filter(|(acted, _)| *acted).map(|(_, name)| *name).collect();
+    let counts = case.scene.collider_counts();
+    let collided = ColliderKind::ALL.iter().filter(|&&kind| touched && counts[kind] > 0);
+    let with_itself =
+        (counters.self_collision_moves > 0).then_some("self-collision (order of points, of cells)");
+    let with_objects = collided.map(|kind| match kind {
+        ColliderKind::Plane => "collision with planes (its side, friction)",
+        ColliderKind::Sphere => "collision with spheres (friction, the centre)",
+    });
+    let limited = (counters.springs_limited > 0).then_some("the stretch limit (its order, pinned ends)");
+    let names: Vec<&str> = with_itself.into_iter().chain(with_objects).chain(limited).collect();
     let always = "the start, the forces, the mass of a point, the step, damping";
     let acted = if names.is_empty() { String::new() } else { format!("; {}", names.join("; ")) };
     let single = if case.theirs.len() == 1 && !names.is_empty() {

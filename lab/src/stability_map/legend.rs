@@ -79,7 +79,7 @@ fn meaning(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ok => {
             "no blow-up in this run, and no spring much longer than the stretch limit allows. These values may be used; \
-             above the line at worst no blow-up was found to come later."
+             with at least as many steps as the line at worst no blow-up was found later."
         }
         Outcome::Stretch => {
             "no blow-up: no energy came from nothing. But at the end of a frame a spring exceeded its rest length by \

@@ -42,8 +42,7 @@ pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
     let Some(stability) = limited(cloth, scene)? else { return Ok(None) };
     let expected = stability.omega_rest / stability.limit;
     let mut rest = scene.clone();
-    rest.planes.clear();
-    rest.spheres.clear();
+    rest.colliders.clear();
     rest.sim.gravity.fill(0.0);
     rest.sim.self_collision = SelfCollision::Off;
     rest.sim.stretch_limit = None;

@@ -1,13 +1,13 @@
 //! The matrix of runs: method × steps per second × stiffness.
 
 use super::extent::Extent;
-use super::method::{METHODS, MODEL, Method, run_name};
-use super::rates::{clock, rates, springs_in};
+use super::method::{LARGE_STEPS, METHODS, MODEL, Rates, run_name};
+use super::rates::{clock, rates_around, springs_in};
 use super::source::Source;
 use drape::cloth::Params;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
-use drape::scene::Scene;
+use drape::scene::{Integrator, Scene};
 
 /// The cells of one stiffness.
 #[derive(Clone, Debug)]
@@ -99,13 +99,15 @@ pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
 fn names(panels: &[Panel]) -> String {
     let stiffness = panels.iter().map(|panel| format!("`k/m {:.2e}`", panel.k_over_m));
     let methods: Vec<_> = METHODS.iter().map(|method| format!("`{}`", method.name)).collect();
+    let integrators: Vec<_> = Integrator::NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
     let example = panels.iter().find_map(|panel| Some(panel.name(panel.cells.last()?)));
     format!(
         "the stiffnesses of this scene are {}; the methods are {}; an example of a full name is `{}`; the integrators \
-         are `verlet`, `xpbd`, `implicit_euler`, `bdf2`",
+         are {}",
         stiffness.collect::<Vec<_>>().join(", "),
         methods.join(", "),
         example.unwrap_or_default(),
+        integrators.join(", "),
     )
 }
 
@@ -120,27 +122,47 @@ fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Ext
     let mass = Params::new(cloth, &scene.sim).mass;
     let Stability { omega_safe, limit_worst, .. } = Stability::new(cloth, &scene.sim)?;
     let stable_rate = (omega_safe / limit_worst).max(50.0);
-    let rates = rates(stock, stable_rate, cloth, extent);
+    let rates = rates_around(stock, stable_rate, cloth, extent);
     let finest = rates.last().copied().unwrap_or(0);
     let k_over_m = cloth.ks / mass;
     let mut panel = Panel { density, part, k_over_m, stable_rate, cells: Vec::new(), finest, sets };
     let is_too_long = springs_in(cloth, finest, extent) * 16.0 > extent.most_reference;
     if f64::from(finest) >= stable_rate && !is_too_long {
-        panel.cells = cells(source, stock, &panel.sets, &rates)?;
+        panel.cells = cells(source, stock, &panel.sets, &rates, extent)?;
     }
     Ok(panel)
 }
 
-/// The cells of the scene with the changes `sets`; a method without rates of its own runs at `rates`.
-fn cells(source: &Source, stock: &Scene, sets: &[String], rates: &[u32]) -> Result<Vec<Cell>> {
-    let runs = METHODS.iter().enumerate().flat_map(|(number, method)| {
-        let own = if method.rates.is_empty() { rates } else { method.rates };
-        own.iter().map(move |&rate| (number, method, rate))
-    });
-    let cell = |(number, method, rate): (usize, &Method, u32)| {
-        let changes = method.sets.iter().map(ToString::to_string).chain(clock(stock.sim.fps, rate));
-        let scene = source.scene(&sets.iter().cloned().chain(changes).collect::<Vec<_>>())?;
-        Ok(Cell { method: number, rate, scene })
-    };
-    runs.map(cell).collect()
+/// The cells of the scene with the changes `sets`; `rates` are those around the rate that is stable under
+/// Verlet's scheme.
+fn cells(
+    source: &Source,
+    stock: &Scene,
+    sets: &[String],
+    rates: &[u32],
+    extent: &Extent,
+) -> Result<Vec<Cell>> {
+    let mut cells = Vec::new();
+    for (number, method) in METHODS.iter().enumerate() {
+        let changed = |more: &[String]| source.scene(&[sets, method.sets.as_slice(), more].concat());
+        let own = match method.rates {
+            Rates::OfVerlet => rates.to_vec(),
+            Rates::Given(rates) => rates.to_vec(),
+            Rates::OfIntegrator => own_rates(stock, &changed(&[])?, extent)?,
+        };
+        for rate in own {
+            let scene = changed(&clock(stock.sim.fps, rate))?;
+            cells.push(Cell { method: number, rate, scene });
+        }
+    }
+    Ok(cells)
+}
+
+/// Steps per second around the rate that is stable under the integrator of `scene`.
+fn own_rates(stock: &Scene, scene: &Scene, extent: &Extent) -> Result<Vec<u32>> {
+    let Some(cloth) = &scene.cloth else { return Ok(Vec::new()) };
+    Ok(match Stability::of_bounded(cloth, &scene.sim)? {
+        Some(own) => rates_around(stock, own.omega_safe / own.limit_worst, cloth, extent),
+        None => LARGE_STEPS.to_vec(),
+    })
 }

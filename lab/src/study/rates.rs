@@ -11,7 +11,7 @@ pub(super) fn springs_in(cloth: &Cloth, rate: u32, extent: &Extent) -> f64 {
 
 /// Steps per second around the `stable` rate, and the scene's own, ascending. All are multiples of
 /// [`quantum`].
-pub(super) fn rates(stock: &Scene, stable: f64, cloth: &Cloth, extent: &Extent) -> Vec<u32> {
+pub(super) fn rates_around(stock: &Scene, stable: f64, cloth: &Cloth, extent: &Extent) -> Vec<u32> {
     let quantum = quantum(stock.sim.fps);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0; saturates")]
     let rounded = |rate: f64| ((rate / f64::from(quantum)).ceil() as u32).saturating_mul(quantum);

@@ -102,7 +102,7 @@ impl<'a> Results<'a> {
             runs_kept,
             times: study.extent.tenths.iter().map(|&tenth| f64::from(tenth) / 10.0).collect(),
             model: MODEL,
-            methods: METHODS,
+            methods: &METHODS,
             panels: study.panels.iter().map(PanelResults::new).collect(),
             left_out: &study.left_out,
             pictures: study.pictures.as_ref().map(PictureResults::new),

@@ -9,7 +9,7 @@ use crate::scenes;
 use crate::textbook_cloth::Cloth;
 use drape::cloth::Points;
 use drape::math::{StateHash, splitmix64};
-use drape::scene::{Orientation, Plane, Scene, SelfCollision, Sphere, Vec3};
+use drape::scene::{Collider, Orientation, Plane, Scene, SelfCollision, Sphere, Vec3};
 use drape::simulation::Simulation;
 use proptest::prelude::*;
 
@@ -100,7 +100,7 @@ prop_compose! {
 
 prop_compose! {
     fn any_sphere()(origin in vector(1.0), radius in 0.05_f64..1.0, friction in 0.0_f64..=1.0) -> Sphere {
-        Sphere { origin, radius, friction, ..scenes::sphere().spheres.remove(0) }
+        Sphere { origin, radius, friction, ..scenes::ball() }
     }
 }
 
@@ -117,8 +117,8 @@ prop_compose! {
     ) -> Scene {
         let mut scene = scenes::pinned2();
         scene.cloth = Some(cloth);
-        scene.planes = planes;
-        scene.spheres = spheres;
+        let planes = planes.into_iter().map(Collider::Plane);
+        scene.colliders = planes.chain(spheres.into_iter().map(Collider::Sphere)).collect();
         scene.sim = drape::scene::Sim {
             gravity, steps_per_frame, stretch_limit, stretch_passes, self_collision, ..scene.sim
         };
@@ -166,7 +166,7 @@ fn stock_scenes_agree_in_every_bit_and_keep_their_hashes() {
     all_stock_scenes_agree(100);
 }
 
-/// All frames by both: `cargo test --release --test method_bits -- --ignored`.
+/// All frames by both: `cargo test --release --test engine method_bits -- --ignored`.
 #[test]
 #[ignore = "the textbook cloth is slow"]
 fn stock_scenes_agree_in_every_bit_for_1000_frames() {
@@ -203,7 +203,7 @@ fn stock_scene_agrees(name: &str, scene: &Scene, expected: u64, by_both: u64) {
 /// A cloth of 200 x 200 points, a large one whose steps are shared among threads.
 fn large_scene() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
+    scenes::add_plane(&mut scene, scenes::floor());
     (scene.sim.fps, scene.sim.steps_per_frame) = (270.0, 40);
     scene.sim.stretch_passes = 2;
     let cloth = scene.cloth.as_mut().unwrap();

@@ -26,7 +26,7 @@ type W = Wide<f32>;
 
 /// The unit ball with all attributes.
 fn ball(resolution: u32) -> Mesh {
-    let sphere = Sphere { resolution: [resolution; 2], ..scenes::sphere().spheres[0].clone() };
+    let sphere = Sphere { resolution: [resolution; 2], ..scenes::ball() };
     Mesh::sphere(&sphere, Needs::of(Shader::Custom))
 }
 

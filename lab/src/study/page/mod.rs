@@ -161,18 +161,18 @@ fn picture_section(pictures: &Pictures) -> Result<String> {
 
 /// What each method changes.
 fn method_section() -> String {
-    let code = |sets: &[&str]| {
+    let code = |sets: &[String]| {
         let sets: Vec<_> = sets.iter().map(|set| format!("<code>{}</code>", escape(set))).collect();
         if sets.is_empty() { "the model itself".to_owned() } else { sets.join(" ") }
     };
     let row = |(name, sets): (&str, String)| {
         format!("<tr><td>{}</td><td class=\"name\">{sets}</td></tr>\n", escape(name))
     };
-    let rows: String = METHODS.iter().map(|method| row((method.name, code(method.sets)))).collect();
+    let rows: String = METHODS.iter().map(|method| row((method.name, code(&method.sets)))).collect();
     format!(
         "<h2>Methods</h2>\n<p>What each method sets besides the steps, as <code>--set</code> takes it. An implicit method is stable with any \
          number of steps, but fewer steps are not always cheaper: a longer step takes more iterations.</p>\n\
          <div class=\"wide\"><table><tr><th>method</th><th>changes</th></tr>\n{}{rows}</table></div>\n",
-        row(("model", code(&MODEL))),
+        row(("model", code(&MODEL.map(str::to_owned)))),
     )
 }

@@ -43,7 +43,7 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     };
     let along: Vec<_> = panel.front(cost).into_iter().map(|i| points[i]).collect();
     plot.line(&along, FRONT);
-    for (method, &Method { name, .. }) in METHODS.iter().enumerate() {
+    for (method, Method { name, .. }) in METHODS.iter().enumerate() {
         let style = Style::of_series(method);
         let cells = panel.cells.iter().enumerate().filter(|(_, cell)| cell.method == method);
         let sound = cells.clone().filter(|(_, cell)| is_drawn(cell));

@@ -112,10 +112,7 @@ pub fn measure(
 }
 
 fn has_lines(scene: &Scene) -> bool {
-    let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
-    let planes = scene.planes.iter().map(|plane| &plane.material);
-    let spheres = scene.spheres.iter().map(|sphere| &sphere.material);
-    cloth.chain(planes).chain(spheres).any(|material| material.shader == Shader::Wireframe)
+    scene.materials().any(|material| material.shader == Shader::Wireframe)
 }
 
 /// The cloth at the frame nearest to the scene's time; `None` if it becomes unstable before.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::extent::Extent;
 use drape::render::{Options, Shading};
-use drape::scene::{Filter, Plan, Scene};
+use drape::scene::{Collider, Filter, Plan, Scene};
 
 /// A way to draw the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,8 +39,10 @@ impl Way {
         if let Some(bilinear) = self.bilinear {
             scene.render.filter = if bilinear { Filter::Bilinear } else { Filter::Nearest };
         }
-        for sphere in &mut scene.spheres {
-            sphere.resolution = self.resolution.map_or(sphere.resolution, |n| [n, n]);
+        for collider in &mut scene.colliders {
+            if let (Collider::Sphere(sphere), Some(n)) = (collider, self.resolution) {
+                sphere.resolution = [n, n];
+            }
         }
         scene
     }
@@ -57,7 +59,7 @@ pub(super) fn ways(scene: &Scene, extent: &Extent) -> Vec<Way> {
     let plan = Plan::of(scene);
     let reads = !plan.textures.is_empty() || !plan.environments.is_empty();
     let filters = if reads { vec![Some(false), Some(true)] } else { vec![None] };
-    let resolutions = if scene.spheres.is_empty() {
+    let resolutions = if scene.spheres().next().is_none() {
         vec![None]
     } else {
         extent.resolutions.iter().copied().map(Some).collect()

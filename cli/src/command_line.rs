@@ -10,14 +10,14 @@ use crate::commands::{
     animate, check, compare, compare_positions, export, gallery, info, meta, render, simulate, stability,
     study,
 };
-use crate::session::atomic;
+use crate::session::files::atomic;
 use crate::session::ui::{Color, Ui};
 use drape::error::{Error, Kind, Result};
 
 /// A reference cloth simulator and the software rasteriser that shows it.
 #[derive(Parser)]
 #[command(name = "drape", version, max_term_width = 100, after_long_help = EXIT_CODES)]
-pub(crate) struct Arguments {
+pub(crate) struct CommandLine {
     #[command(subcommand)]
     pub(crate) command: Command,
     #[command(flatten, next_help_heading = "Global options")]
@@ -85,7 +85,7 @@ pub(crate) enum Command {
     Man(meta::ManArgs),
 }
 
-impl Arguments {
+impl CommandLine {
     /// How to speak on standard error.
     pub(crate) fn ui(&self) -> Ui {
         Ui {

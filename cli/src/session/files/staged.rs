@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::session::atomic::{self, Target, failed, temporary_beside};
+use super::atomic::{self, persist, temporary_beside};
+use super::target::{Target, failed, target};
 use drape::error::Result;
 
 /// A temporary file that takes its place in [`Staged::finish`], and is gone if that is never called.
@@ -22,7 +23,7 @@ impl Staged {
     /// # Errors
     /// As [`atomic::write`].
     pub(crate) fn create(path: &Path) -> Result<Self> {
-        let temporary = match atomic::target(path)? {
+        let temporary = match target(path)? {
             Target::File(file) => temporary_beside(&file),
             Target::Stdout | Target::Stream(_) => NamedTempFile::new(),
         };
@@ -54,15 +55,11 @@ impl Staged {
     /// As [`atomic::write`].
     pub(crate) fn finish(self) -> Result<()> {
         let Self { path, temporary } = self;
-        let Target::File(file) = atomic::target(&path)? else {
+        let Target::File(file) = target(&path)? else {
             let bytes = fs::read(temporary.path()).map_err(|e| failed(&path, &e))?;
             return atomic::write(&path, &bytes);
         };
-        let synced = temporary.as_file().sync_all();
-        synced
-            .and_then(|()| temporary.persist(file).map_err(|e| e.error))
-            .map(drop)
-            .map_err(|e| failed(&path, &e))
+        persist(temporary, &file).map_err(|e| failed(&path, &e))
     }
 }
 

@@ -3,38 +3,14 @@
 //! The bytes go to a temporary file in the target's folder, are flushed and synced, and the file
 //! then takes the target's name. `-` is standard output. Devices and pipes are written directly.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::{self, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use tempfile::NamedTempFile;
+
+use super::target::{Content, Target, failed, folder, target};
 use drape::error::{Error, Kind, Result};
-
-/// The number of the signal for a pipe whose reader has gone.
-pub(crate) const SIGPIPE: u8 = 13;
-
-/// What a file holds, as far as a terminal cares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Content {
-    /// Lines of text, welcome on a terminal.
-    Text,
-    /// Bytes that would garble a terminal.
-    Binary,
-}
-
-/// Where bytes go once links are followed.
-pub(crate) enum Target {
-    /// Standard output.
-    Stdout,
-    /// A device or pipe, which cannot be replaced.
-    Stream(PathBuf),
-    /// A regular file, there or not.
-    File(PathBuf),
-}
-
-/// Whether `path` stands for standard output.
-pub(crate) fn is_stdout(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
 
 /// Writes `bytes` to `path` as one whole file.
 ///
@@ -78,36 +54,6 @@ pub(crate) fn check_writable(path: &Path, content: Content) -> Result<()> {
     }
 }
 
-/// Follows links and tells regular files from devices. A link to nothing names the file to make.
-pub(crate) fn target(path: &Path) -> Result<Target> {
-    if is_stdout(path) {
-        return Ok(Target::Stdout);
-    }
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(is_folder(path)),
-        Ok(found) if found.is_file() => {
-            fs::canonicalize(path).map(Target::File).map_err(|e| failed(path, &e))
-        }
-        Ok(_) => Ok(Target::Stream(path.to_path_buf())),
-        Err(_) if ends_with_separator(path) => Err(is_folder(path)),
-        // A chain of links that never ends is not reported as absent, so this recursion does.
-        Err(e) if e.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
-            Ok(link) => target(&folder(path).join(link)),
-            Err(_) => Ok(Target::File(path.to_path_buf())),
-        },
-        Err(e) => Err(failed(path, &e)),
-    }
-}
-
-fn ends_with_separator(path: &Path) -> bool {
-    path.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| std::path::is_separator(byte.into()))
-}
-
-/// The folder that `path` names a file in.
-fn folder(path: &Path) -> &Path {
-    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
 fn probe(file: &Path) -> io::Result<()> {
     if file.exists() {
         OpenOptions::new().write(true).open(file)?;
@@ -119,12 +65,17 @@ fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut temporary = temporary_beside(file)?;
     temporary.write_all(bytes)?;
     temporary.flush()?;
+    persist(temporary, file)
+}
+
+/// Syncs a complete temporary file and gives it the name `file`.
+pub(crate) fn persist(temporary: NamedTempFile, file: &Path) -> io::Result<()> {
     temporary.as_file().sync_all()?;
     temporary.persist(file).map(drop).map_err(|e| e.error)
 }
 
 /// An empty temporary file next to `file`, with the permissions that `file` has or would get.
-pub(crate) fn temporary_beside(file: &Path) -> io::Result<tempfile::NamedTempFile> {
+pub(crate) fn temporary_beside(file: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".drape-");
     #[cfg(unix)]
@@ -136,26 +87,10 @@ pub(crate) fn temporary_beside(file: &Path) -> io::Result<tempfile::NamedTempFil
     Ok(temporary)
 }
 
-fn is_folder(path: &Path) -> Error {
-    Error::new(Kind::Io, format!("cannot write `{}`: it is a folder", path.display()))
-        .with_help("name a file in it")
-}
-
-/// The error of a failed write. A reader that has gone away counts as the signal for that.
-pub(crate) fn failed(path: &Path, cause: &io::Error) -> Error {
-    if cause.kind() == io::ErrorKind::BrokenPipe {
-        return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
-    }
-    let error = Error::new(Kind::Io, format!("cannot write `{}`: {cause}", path.display()));
-    if !is_stdout(path) && !folder(path).exists() {
-        return error.with_help(format!("the folder `{}` does not exist", folder(path).display()));
-    }
-    error
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn names(dir: &Path) -> Vec<String> {
         let mut names: Vec<_> = fs::read_dir(dir)

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::session::atomic::{self, Content};
+use super::atomic;
+use super::target::{Content, folder, is_stdout};
 use drape::error::{Error, Kind, Result};
 
 /// Checks that every output can be written, that no two are the same file, and that none is an
@@ -35,7 +36,7 @@ pub(crate) fn check<'a>(
 
 /// Whether one of the outputs is standard output, so that nothing else may go there.
 pub(crate) fn takes_stdout(outputs: &[&Option<PathBuf>]) -> bool {
-    outputs.iter().filter_map(|path| path.as_deref()).any(atomic::is_stdout)
+    outputs.iter().filter_map(|path| path.as_deref()).any(is_stdout)
 }
 
 /// Checks that standard output is not asked to carry bytes and text at once.
@@ -75,11 +76,8 @@ pub(crate) fn make_folder(path: &Path) -> Result<()> {
 
 /// A path that two names of one file share, if the file or its folder is there.
 fn identity(path: &Path) -> PathBuf {
-    let in_folder = || {
-        let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
-    };
-    if atomic::is_stdout(path) {
+    let in_folder = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
+    if is_stdout(path) {
         return path.to_path_buf();
     }
     fs::canonicalize(path).ok().or_else(in_folder).unwrap_or_else(|| path.to_path_buf())
