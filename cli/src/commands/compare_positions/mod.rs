@@ -13,7 +13,7 @@ use serde::Serialize;
 use self::parting::{Difference, Ours};
 use self::verdict::{Case, Tried, Verdict};
 use crate::args::frames::Frames;
-use crate::args::scene::{Leniency, SceneArgs, frame_at};
+use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::progress::Progress;
@@ -40,7 +40,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]
-    leniency: Leniency,
+    stability: StabilityArgs,
 }
 
 /// How the positions differ.
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if start.is_some() {
         session.ui.note("the cloth stands at random depths, so ours starts from those of the file");
     }
-    let simulation = start_from(&scene, last_frame, start.as_ref(), args.leniency.allow_unstable, session)?;
+    let simulation = start_from(&scene, last_frame, start.as_ref(), args.stability.allow_unstable, session)?;
     let mut progress = Progress::new(&session.ui, "simulating", last_frame);
     let ours = Ours::simulate(simulation, first_frame, theirs.len(), |simulation| {
         progress.set(simulation.frame());
