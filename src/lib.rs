@@ -73,3 +73,6 @@ pub mod shader;
 pub mod raster;
 pub mod render;
 pub mod output;
+
+#[doc = include_str!("../docs/architecture.md")]
+pub mod architecture {}

@@ -38,7 +38,7 @@ pub struct Sim {
 
 /// The scheme that advances the positions (`sim.integrator`).
 ///
-/// README has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
+/// docs/integrators.md has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
 /// implicit method was as accurate as Verlet's scheme at any stiffness that was tried, and fewer implicit steps
 /// can cost more, because each takes more iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +46,9 @@ pub enum Integrator {
     /// Position Verlet, the report's. Explicit: stable for small steps only, which are checked
     /// before the first.
     Verlet,
+    /// The classical Runge-Kutta method, fourth order, four evaluations of the forces in a step:
+    /// `src/integrator/rk4.rs`. Explicit: stable for small steps only, which are checked before the first.
+    Rk4,
     /// Extended position-based dynamics, first order, with `sim.iterations`: `src/integrator/xpbd.rs`. Never
     /// refused, but wrong and gaining energy where its passes are too few; then the run is stopped.
     Xpbd,

@@ -12,6 +12,7 @@ mod integrators;
 mod layers;
 mod msrv;
 mod output;
+mod pages;
 mod promises;
 mod raster;
 mod render;

@@ -166,7 +166,7 @@ fn stock_scenes_agree_in_every_bit_and_keep_their_hashes() {
     all_stock_scenes_agree(100);
 }
 
-/// All frames by both: `cargo test --release --test method_bits -- --ignored`.
+/// All frames by both: `cargo test --release --test engine method_bits -- --ignored`.
 #[test]
 #[ignore = "the textbook cloth is slow"]
 fn stock_scenes_agree_in_every_bit_for_1000_frames() {
