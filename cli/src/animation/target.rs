@@ -25,9 +25,9 @@ pub(crate) fn help() -> String {
     let formats: Vec<String> =
         FORMATS.iter().map(|Format { ending, note, .. }| format!(".{ending} ({note})")).collect();
     format!(
-        "The file to write; its ending is the format: {}; or .png with a place for the number, such as \
-         frames/%04d.png, for a PNG file a picture. A picture that is already there from the same scene and options \
-         is kept",
+        "The file to write, in the format of its ending: {}. A .png name with %d or %04d in it, such as \
+         frames/%04d.png, means a numbered file for each picture; pictures that an earlier run has written from the \
+         same scene and options are kept",
         formats.join(", ")
     )
 }

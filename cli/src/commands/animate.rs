@@ -133,7 +133,7 @@ impl Args {
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };
         let line =
-            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s");
+            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} per second, {seconds} s");
         session.report(&Summary { out, width, height, fps, pictures, kept, seconds }, &line)
     }
 }

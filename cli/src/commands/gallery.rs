@@ -22,7 +22,7 @@ const INDEX: &str = "index.html";
 /// The arguments of `gallery`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder for the pictures and index.html
+    /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
     /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;

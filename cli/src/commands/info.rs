@@ -105,8 +105,8 @@ impl Info {
         let colliders: Vec<String> =
             self.colliders.entries().map(|(plural, count)| format!("{plural} {count}")).collect();
         format!(
-            "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
-             objects     {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+            "picture     {width} x {height} pixels, samples {}\ntime        {} s = frame {}, at {} frames per second and {} steps per frame\n{}\
+             objects     {}\nmemory      at least {} bytes for the cloth, {} for the picture\n\n{needs}",
             self.samples,
             self.time,
             self.frames,
@@ -188,7 +188,7 @@ impl Bound {
             String::new()
         };
         format!(
-            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}{undamped}: {stable}\n\
+            ", dt·ω {:.4} at rest and {:.4} at worst, limit {:.4}{undamped}: {stable}\n\
              steps       at least {} per frame at rest, {} at worst\n{ks}",
             self.dt_omega_rest,
             self.dt_omega_worst,

@@ -15,9 +15,9 @@ pub(crate) fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Er
     let [softer, softer_worst] = largest_ks(stability, ks);
     let help = format!(
         "raise steps_per_frame from {steps} to at least {fewest} at rest, {fewest_worst} at worst (any deformation): \
-         --set sim.steps_per_frame={fewest_worst}; damping per step then acts more often\nor lower ks to at most \
-         {softer} at rest, {softer_worst} at worst: --set cloth.ks={softer_worst}\nor simulate all the same with \
-         --allow-unstable"
+         --set sim.steps_per_frame={fewest_worst}\n(with more steps, damping per step acts more often)\nor lower ks \
+         to at most {softer} at rest, {softer_worst} at worst: --set cloth.ks={softer_worst}\nor simulate all the \
+         same with --allow-unstable"
     );
     Error::new(Kind::Unstable, message).with_help(help)
 }

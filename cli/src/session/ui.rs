@@ -7,11 +7,11 @@ use drape::error::{Diagnostic, Error, Kind};
 /// When to use colours (`--color`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Color {
-    /// On a terminal, unless the variable `NO_COLOR` is set.
+    /// On a terminal, if the variable `NO_COLOR` is not set.
     Auto,
-    /// Always.
+    /// On everything.
     Always,
-    /// Never.
+    /// On nothing.
     Never,
 }
 

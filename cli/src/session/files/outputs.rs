@@ -61,8 +61,7 @@ pub(crate) fn check_ending(path: &Path, ending: &str) -> Result<()> {
     match path.extension() {
         Some(other) if !other.eq_ignore_ascii_case(ending) => {
             let message = format!("`{}` does not end in .{ending}", path.display());
-            Err(Error::new(Kind::Usage, message)
-                .with_help(format!("the format is .{ending}; name such a file")))
+            Err(Error::new(Kind::Usage, message).with_help(format!("name a .{ending} file")))
         }
         _ => Ok(()),
     }
