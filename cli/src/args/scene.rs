@@ -1,6 +1,6 @@
 //! The arguments for a scene: its file, changes to it, and the moment to simulate to.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::run::advance::Until;
 use crate::session::Session;
@@ -54,8 +54,8 @@ impl SceneArgs {
     }
 
     /// Every file that [`SceneArgs::load`] reads.
-    pub(crate) fn inputs(&self) -> Vec<&Path> {
-        [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        [&self.path].into_iter().chain(&self.changes.patches).cloned().collect()
     }
 }
 

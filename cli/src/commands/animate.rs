@@ -1,6 +1,6 @@
 //! `drape animate`: a scene in motion.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
@@ -104,9 +104,7 @@ impl Args {
 
     /// Checks the output before any long work.
     fn check_outputs(&self, scene: &Scene, target: &Target, schedule: &FrameSchedule) -> Result<()> {
-        let textures = self.render.inputs(scene);
-        let inputs: Vec<&Path> =
-            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
         let Some(pattern) = target.pattern() else {
             return outputs::check(&inputs, [(self.out.as_path(), Content::Binary)]);
         };

@@ -62,14 +62,14 @@ struct Folders {
 
 /// Compares and prints; a difference beyond the budgets is an error of [`Kind::Difference`].
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let inputs = [args.expected.as_path(), args.actual.as_path()];
+    let inputs = [args.expected.clone(), args.actual.clone()];
     let files = [(&args.diff, Content::Binary), (&args.html, Content::Text)];
     outputs::check(&inputs, files.iter().filter_map(|(path, content)| Some((path.as_deref()?, *content))))?;
-    for path in inputs {
+    for path in &inputs {
         fs::metadata(path)
             .map_err(|e| Error::new(Kind::Io, format!("cannot read `{}`: {e}", path.display())))?;
     }
-    match inputs.map(Path::is_dir) {
+    match inputs.map(|path| path.is_dir()) {
         [false, false] => compare_files(args, session),
         [true, true] => compare_folders(args, session),
         _ => Err(Error::new(Kind::Usage, "one of A and B is a folder and the other is a file")),

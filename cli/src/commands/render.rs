@@ -114,9 +114,7 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let textures = self.render.inputs(scene);
-        let inputs: Vec<&Path> =
-            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
         outputs::check(&inputs, all)
     }
 

@@ -12,7 +12,7 @@ use drape::error::{Error, Kind, Result};
 /// # Errors
 /// [`Kind::Usage`] for a clash or binary content on a terminal, [`Kind::Io`] otherwise.
 pub(crate) fn check<'a>(
-    inputs: &[&Path],
+    inputs: &[PathBuf],
     outputs: impl IntoIterator<Item = (&'a Path, Content)>,
 ) -> Result<()> {
     let read: Vec<PathBuf> = inputs.iter().map(|path| identity(path)).collect();
@@ -88,6 +88,7 @@ fn identity(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::slice;
 
     #[test]
     fn clashes_are_found_under_any_name() {
@@ -96,7 +97,8 @@ mod tests {
         fs::write(&scene, "{}").unwrap();
         let other = |name: &str| dir.path().join(name);
         let kind = |outputs: &[&Path]| {
-            check(&[&scene], outputs.iter().map(|&path| (path, Content::Text))).map_err(|e| e.kind)
+            check(slice::from_ref(&scene), outputs.iter().map(|&path| (path, Content::Text)))
+                .map_err(|e| e.kind)
         };
         assert_eq!(kind(&[&other("a"), &other("b")]), Ok(()));
         assert_eq!(kind(&[&other("a"), &other("./a")]), Err(Kind::Usage));
