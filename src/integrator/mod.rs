@@ -8,6 +8,7 @@ mod conjugate_gradients;
 mod damped_step;
 mod implicit_euler;
 mod newton;
+mod rk4;
 mod stiffness;
 mod verlet;
 mod verlet_f32;
@@ -25,6 +26,7 @@ fn row(sim: &Sim) -> Row {
     match (sim.integrator, sim.precision) {
         (Choice::Verlet, Precision::F64) => Row::of::<verlet::Verlet>(),
         (Choice::Verlet, Precision::F32) => Row::of::<verlet_f32::VerletF32>(),
+        (Choice::Rk4, _) => Row::of::<rk4::Rk4>(),
         (Choice::Xpbd, _) => Row::of::<xpbd::Xpbd>(),
         (Choice::ImplicitEuler, _) => Row::of::<implicit_euler::ImplicitEuler>(),
         (Choice::Bdf2, _) => Row::of::<bdf2::Bdf2>(),

@@ -26,6 +26,7 @@ impl Integrator {
     /// Every integrator with its name.
     pub const NAMES: &'static [(&'static str, Self)] = &[
         ("verlet", Self::Verlet),
+        ("rk4", Self::Rk4),
         ("xpbd", Self::Xpbd),
         ("implicit_euler", Self::ImplicitEuler),
         ("bdf2", Self::Bdf2),

@@ -46,6 +46,9 @@ pub enum Integrator {
     /// Position Verlet, the report's. Explicit: stable for small steps only, which are checked
     /// before the first.
     Verlet,
+    /// The classical Runge-Kutta method, fourth order, four evaluations of the forces in a step:
+    /// `src/integrator/rk4.rs`. Explicit: stable for small steps only, which are checked before the first.
+    Rk4,
     /// Extended position-based dynamics, first order, with `sim.iterations`: `src/integrator/xpbd.rs`. Never
     /// refused, but wrong and gaining energy where its passes are too few; then the run is stopped.
     Xpbd,

@@ -35,7 +35,8 @@ pub(super) fn find(top: &Path, item: &str, old: &str) -> Result<Place, String> {
     let mut places = Vec::new();
     for file in FOLDERS.iter().flat_map(|folder| sources(&top.join(folder))) {
         let text = fs::read_to_string(&file).unwrap();
-        let bodies = if file.ends_with(item) { Vec::from([0..text.len()]) } else { items(&text, item) };
+        let bodies =
+            if file.ends_with(item) { std::iter::once(0..text.len()).collect() } else { items(&text, item) };
         let found = bodies.into_iter().flat_map(|body| occurrences(&text, body, old));
         let file = file.strip_prefix(top).unwrap();
         places.extend(found.map(|range| Place { file: file.to_owned(), range }));

@@ -86,7 +86,7 @@ pub(crate) fn add_plane(scene: &mut Scene, plane: Plane) {
 pub(crate) fn plane_mut(scene: &mut Scene) -> &mut Plane {
     let mut planes = scene.colliders.iter_mut().filter_map(|collider| match collider {
         Collider::Plane(plane) => Some(plane),
-        Collider::Sphere(_) => None,
+        _ => None,
     });
     planes.next().expect("a plane")
 }
@@ -95,7 +95,7 @@ pub(crate) fn plane_mut(scene: &mut Scene) -> &mut Plane {
 pub(crate) fn ball_mut(scene: &mut Scene) -> &mut Sphere {
     let mut balls = scene.colliders.iter_mut().filter_map(|collider| match collider {
         Collider::Sphere(ball) => Some(ball),
-        Collider::Plane(_) => None,
+        _ => None,
     });
     balls.next().expect("a ball")
 }
