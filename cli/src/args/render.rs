@@ -9,7 +9,7 @@ use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
 use drape::render::Options;
-use drape::scene::{Collider, MAX_RESOLUTION, Plan, Scene, Shader};
+use drape::scene::{Collider, Images, MAX_RESOLUTION, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
@@ -71,9 +71,9 @@ impl RenderArgs {
 
     /// Every file of the folder of textures that may be read for `scene`.
     pub(crate) fn inputs(&self, scene: &Scene) -> Vec<PathBuf> {
-        let plan = Plan::of(scene);
-        let faces = plan.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
-        let names: Vec<String> = plan.textures.iter().cloned().chain(faces).collect();
+        let images = Images::of(scene);
+        let faces = images.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
+        let names: Vec<String> = images.textures.iter().cloned().chain(faces).collect();
         let file = |folder: &PathBuf, name: &str, ending| folder.join(format!("{name}.{ending}"));
         let folders = self.textures.iter();
         let files = folders.flat_map(|folder| {

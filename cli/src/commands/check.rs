@@ -12,7 +12,7 @@ use crate::session::Session;
 use crate::session::ui::{help_lines, paint};
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
-use drape::scene::{self, Material, Plan, Scene};
+use drape::scene::{self, Images, Material, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
 
 /// The arguments of `check`.
@@ -109,8 +109,8 @@ fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnost
 /// The textures and the cube maps to check: those that the shaders of the scene read, and those whose name is
 /// not built in, which only a change of the shader would read.
 fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
-    let plan = Plan::of(scene);
-    let [mut images, mut cubes] = [plan.textures, plan.environments].map(BTreeSet::from_iter);
+    let Images { textures, environments } = Images::of(scene);
+    let [mut images, mut cubes] = [textures, environments].map(BTreeSet::from_iter);
     for Material { texture, height_map, environment, .. } in scene.materials() {
         images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
         cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());

@@ -8,7 +8,7 @@ use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
-use drape::scene::{Cloth, Item, PerKind, Plan, Scene};
+use drape::scene::{Cloth, Item, PerKind, Scene, plan};
 
 /// The arguments of `info`.
 #[derive(clap::Args)]
@@ -95,7 +95,7 @@ impl Info {
             cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
             colliders: scene.collider_counts(),
             memory: Memory::of(scene),
-            needs: Plan::of(scene).items,
+            needs: plan(scene),
         })
     }
 
