@@ -56,23 +56,27 @@ keys! {
 choices! {
     /// Which program draws an object (`material.shader`).
     pub enum Shader {
-        /// The springs of the cloth as lines; other objects in their flat colour.
+        /// The springs of the cloth as lines; other objects flat. Reads `color`.
         Wireframe = "wireframe",
         /// The direction of the surface as a colour.
         Normal = "normal",
-        /// Matt, in the light (Lambert's law).
+        /// Matt, in the light (Lambert's law). Reads `color` and `kd`.
         Diffuse = "diffuse",
-        /// Matt with a highlight and some light everywhere (Blinn-Phong).
+        /// Matt with a highlight and some light everywhere (Blinn-Phong). Reads `color`, `ka`, `kd`, `ks` and
+        /// `shininess`.
         Phong = "phong",
-        /// The texture alone, without light.
+        /// The texture alone, without light. Reads `texture`.
         Texture = "texture",
-        /// As `phong`, with the relief of the height map shaded on a smooth surface.
+        /// As `phong`, with the relief of the height map shaded on a smooth surface. Also reads `height_map`,
+        /// `normal_scaling` and `height_scaling`.
         Bump = "bump",
-        /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too.
+        /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too. Reads the
+        /// same keys.
         Displacement = "displacement",
-        /// The environment, mirrored.
+        /// The environment, mirrored. Reads `environment`.
         Mirror = "mirror",
-        /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together.
+        /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together. Reads the keys of
+        /// `displacement` except `color`, and `texture`, `environment`, `km` and `light.color`.
         Custom = "custom",
     }
 }

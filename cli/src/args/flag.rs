@@ -7,13 +7,15 @@ pub(crate) fn flag(name: &'static str, path: &str, value: &str) -> Flag {
     Flag { name, set: format!("{path}={value}") }
 }
 
-/// The help of a flag that sets the key at `path`: its meaning and what is allowed.
-pub(crate) fn help(path: &str) -> String {
-    let key = keys().into_iter().find(|key| key.path() == path);
-    key.map_or_else(String::new, |key| format!("{} Sets `{path}`: {}", key.meaning, key.rule()))
+/// The help of a flag that sets the key at `path`: `what` it is, or else the key's meaning, and what is allowed.
+pub(crate) fn help(what: &str, path: &str) -> String {
+    let keys = keys();
+    let Some(key) = keys.iter().find(|key| key.path() == path) else { return what.to_owned() };
+    let what = if what.is_empty() { key.meaning.trim_end_matches('.') } else { what };
+    format!("{what} ({path}: {})", key.rule())
 }
 
-/// Reads whole numbers that the key at `path` allows, as JSON.
+/// Parses whole numbers that the key at `path` allows, as JSON.
 pub(crate) fn whole(path: &'static str) -> impl Fn(&str) -> Result<String, String> + Clone {
     move |text| {
         let digits = text.parse::<u32>().map_or_else(|_| format!("{text:?}"), |number| number.to_string());
@@ -21,18 +23,19 @@ pub(crate) fn whole(path: &'static str) -> impl Fn(&str) -> Result<String, Strin
     }
 }
 
-/// Reads a width and a height, as a list in JSON.
+/// Parses a width and a height, as a list in JSON.
 pub(crate) fn size(text: &str) -> Result<String, String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse::<u32>().ok()?, h.parse().ok()?]));
-    let [width, height] = sides.ok_or("a size is WIDTHxHEIGHT, such as 1024x800")?;
+    let [width, height] = sides.ok_or("expected WxH, such as 1024x800")?;
     let list = format!("[{width},{height}]");
     check_value("render.size", &list).map(|()| list)
 }
 
-/// Reads a time with the bounds of `render.time`, in seconds.
+/// Parses a time in seconds, with the bounds of `render.time`.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds")?;
-    check_value("render.time", &seconds.to_string()).map(|()| seconds)
+    let seconds: f64 = text.parse().map_err(|_| "expected a number of seconds")?;
+    let json = if seconds.is_finite() { seconds.to_string() } else { text.to_owned() };
+    check_value("render.time", &json).map(|()| seconds)
 }
 
 #[cfg(test)]
@@ -59,9 +62,9 @@ mod tests {
 
     #[test]
     fn a_help_says_what_the_key_means_and_allows() {
-        assert_eq!(
-            help("render.samples"),
-            "Samples per pixel: more than 1 smooths edges. Sets `render.samples`: 1, 4, 8 or 16"
-        );
+        let samples = "Samples per pixel: more than 1 smooths edges (render.samples: 1, 4, 8 or 16)";
+        assert_eq!(help("", "render.samples"), samples);
+        let latitudes = "Latitudes (sphere.resolution: a list of 2 whole numbers: 2 to 1000, 3 to 1000)";
+        assert_eq!(help("Latitudes", "sphere.resolution"), latitudes);
     }
 }

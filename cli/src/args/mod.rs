@@ -1,4 +1,4 @@
-//! Options that several commands share.
+//! Arguments that several commands share.
 
 pub(crate) mod flag;
 pub(crate) mod frames;

@@ -1,10 +1,11 @@
-//! What a picture looks like, as given on the command line.
+//! The arguments for how a scene is drawn.
 
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use super::flag::{flag, help, size, whole};
+use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
 use drape::render::Options;
@@ -13,37 +14,38 @@ use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
 #[derive(clap::Args)]
-pub(crate) struct Look {
+pub(crate) struct RenderArgs {
     /// Draw every object with this shader
     #[arg(long, value_name = "NAME", value_parser = shader())]
     shader: Option<String>,
-    #[arg(long, value_name = "WxH", value_parser = size, help = help("render.size"))]
+    #[arg(long, value_name = "WxH", value_parser = size, help = help("", "render.size"))]
     size: Option<String>,
-    #[arg(long, value_name = "N", value_parser = whole("render.samples"), help = help("render.samples"))]
+    #[arg(long, value_name = "N", value_parser = whole("render.samples"), help = help("", "render.samples"))]
     samples: Option<String>,
-    /// Latitude count of the drawn spheres, 2 to 1000
-    #[arg(short = 'a', value_name = "N", value_parser = whole("sphere.resolution.0"))]
+    #[arg(short = 'a', value_name = "N", value_parser = whole("sphere.resolution.0"),
+          help = help("Latitude count of the mesh of each sphere", "sphere.resolution"))]
     latitudes: Option<String>,
-    /// Longitude count of the drawn spheres, 3 to 1000
-    #[arg(short = 'o', value_name = "N", value_parser = whole("sphere.resolution.1"))]
+    #[arg(short = 'o', value_name = "N", value_parser = whole("sphere.resolution.1"),
+          help = help("Longitude count of the mesh of each sphere", "sphere.resolution"))]
     longitudes: Option<String>,
-    /// Springs that a wireframe shows, separated by commas (default: those of the cloth)
+    /// Springs that the wireframe shader draws: structural, shearing, bending, separated by commas (default: those
+    /// that the cloth has)
     #[arg(long, value_name = "KINDS", value_parser = springs)]
     springs: Option<SpringKinds>,
-    /// Take all textures from this folder (texture_1.png .. and cube/posx.png ..); it replaces the built-in set
+    /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }
 
-/// What is told where `pictures` show the background alone.
-pub(crate) fn nothing_seen(pictures: &str) -> String {
-    format!(
-        "warning: nothing is seen in {pictures}: no object is where the camera looks\n  \
-         = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time"
-    )
+/// Warns of `pictures` that show only the background.
+pub(crate) fn warn_of_nothing_visible(pictures: &str, ui: &Ui) {
+    ui.caution(
+        &format!("no object is visible in {pictures}"),
+        "check camera.target, camera.distance, camera.near and camera.far, and the time of the picture",
+    );
 }
 
-impl Look {
+impl RenderArgs {
     /// The changes to a scene.
     pub(crate) fn flags(&self) -> Vec<Flag> {
         let one = |name, path, value: &Option<String>| value.as_ref().map(|value| flag(name, path, value));
@@ -61,12 +63,12 @@ impl Look {
         shader.chain(others.into_iter().flatten()).collect()
     }
 
-    /// Where textures come from.
+    /// Where textures are read from.
     pub(crate) fn textures(&self) -> TextureSource {
         self.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder)
     }
 
-    /// Every file of the folder that may be read as a texture of `scene`.
+    /// Every file of the folder of textures that may be read for `scene`.
     pub(crate) fn inputs(&self, scene: &Scene) -> Vec<PathBuf> {
         let images = Images::of(scene);
         let faces = images.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
@@ -79,7 +81,7 @@ impl Look {
         files.filter(|path| path.is_file()).collect()
     }
 
-    /// What is asked of the picture besides the scene.
+    /// The options of the renderer that are not in the scene.
     pub(crate) fn options(&self, ids: bool) -> Options {
         Options { springs: self.springs, ids, ..Options::default() }
     }
@@ -98,7 +100,7 @@ fn springs(text: &str) -> Result<SpringKinds, String> {
             "structural" => kinds.structural = true,
             "shearing" => kinds.shearing = true,
             "bending" => kinds.bending = true,
-            _ => return Err(format!("`{name}` is none of structural, shearing, bending")),
+            _ => return Err(format!("`{name}` is not structural, shearing or bending")),
         }
     }
     Ok(kinds)

@@ -17,12 +17,6 @@ pub(crate) trait Named: Copy + PartialEq + 'static {
 
     /// What the variant means, in a sentence or two for users.
     fn meaning_of(self) -> String;
-
-    /// What the variants mean.
-    fn glossary() -> String {
-        let entry = |(name, value): &(&str, Self)| format!("`{name}`: {}", value.meaning_of());
-        Self::ROWS.iter().map(entry).collect::<Vec<_>>().join(" ")
-    }
 }
 
 /// Makes an enum of which each variant has a name and a description, so that none can be forgotten.
@@ -105,8 +99,8 @@ impl<T: Named> Rule for Choice<T> {
         T::ROWS[0].1
     }
 
-    fn glossary(&self) -> String {
-        T::glossary()
+    fn choices(&self) -> Vec<(String, String)> {
+        T::ROWS.iter().map(|(name, value)| ((*name).to_owned(), value.meaning_of())).collect()
     }
 }
 
@@ -146,7 +140,7 @@ impl<T: Named> Rule for Numbered<T> {
         T::ROWS[0].1
     }
 
-    fn glossary(&self) -> String {
-        T::glossary()
+    fn choices(&self) -> Vec<(String, String)> {
+        T::ROWS.iter().enumerate().map(|(code, (_, value))| (code.to_string(), value.meaning_of())).collect()
     }
 }
