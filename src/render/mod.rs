@@ -7,10 +7,9 @@ use crate::{
     cloth::Points,
     cubemap::Cubemap,
     error::{Error, Kind, Result},
-    lanes::Wide,
     math::StateHash,
     mesh::SpringKinds,
-    raster::{self, Framebuffer, Stages, Stats},
+    raster::{self, DrawCall, Framebuffer, Stages, Stats},
     scene::{Plan, Scene},
     texture::Texture,
     texture_source::TextureSource,
@@ -110,25 +109,34 @@ impl Renderer {
     /// The picture with the cloth at `points`.
     pub fn draw(&self, points: &Points, options: &Options) -> Picture {
         let mut framebuffer = self.framebuffer();
-        let (stats, _) = self.draw_into(&mut framebuffer, points, options);
+        let stats = self.draw_into(&mut framebuffer, points, options);
         let [width, height] = self.scene.render.size;
         let (rgb, depth, ids) = (framebuffer.rgb(), framebuffer.depth(), framebuffer.ids());
         Picture { width, height, rgb, depth, ids, stats }
     }
 
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
-    pub fn draw_into(
+    pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> Stats {
+        let objects = Object::all(&self.scene, points, options.springs);
+        raster::draw(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
+    }
+
+    /// Does what [`Renderer::draw_into`] does, and measures the time of each stage.
+    pub fn draw_timed(
         &self,
         framebuffer: &mut Framebuffer,
         points: &Points,
         options: &Options,
     ) -> (Stats, Stages) {
         let objects = Object::all(&self.scene, points, options.springs);
-        let call = |object| match options.shading {
-            Shading::F32 => self.draw_call::<Wide<f32>>(object),
-            Shading::F64 => self.draw_call::<Wide<f64>>(object),
-        };
-        let calls: Vec<_> = objects.iter().map(call).collect();
-        raster::draw(framebuffer, round(self.scene.render.background), &calls, options.ids)
+        raster::draw_timed(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
+    }
+
+    fn calls<'a>(&'a self, objects: &'a [Object<'a>], options: &Options) -> Vec<DrawCall<'a>> {
+        objects.iter().map(|object| self.draw_call(object, options.shading)).collect()
+    }
+
+    fn background(&self) -> [f32; 3] {
+        round(self.scene.render.background)
     }
 }

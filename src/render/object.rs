@@ -1,17 +1,16 @@
 //! The objects of a scene, each with its mesh, its place in the world and its programs.
 
-use super::Renderer;
+use super::{Renderer, Shading};
 use crate::{
     camera::Columns,
     cloth::Points,
-    lanes::Lane,
-    mesh::{Mesh, SpringKinds, spring_lines},
-    raster::{DrawCall, Primitives},
+    glsl::Exponent,
+    lanes::F64,
+    mesh::{Attributes, Mesh, SpringKinds, spring_lines},
+    raster::{DrawCall, FragmentProgram, Primitives, VertexProgram},
     scene::{Material, Needs, Scene, Shader, Vec3},
     shader::{
-        Uniforms, bump, custom, diffuse, displacement,
-        glsl::{Exponent, FragmentProgram, VertexProgram},
-        mirror, normal, phong,
+        Uniforms, bump, custom, diffuse, displacement, mirror, normal, phong,
         sampler::{Sampler2d, SamplerCube},
         texture, wireframe,
     },
@@ -51,42 +50,64 @@ impl<'a> Object<'a> {
         objects
     }
 
-    fn call<'b, L: Lane, const N: usize>(
+    fn call<'b, F: FragmentProgram<N> + 'b, const N: usize>(
         &'b self,
-        vertex: impl VertexProgram<N> + 'b,
-        fragment: impl FragmentProgram<L, N> + 'b,
+        shading: Shading,
+        vertex: impl VertexProgram<Attributes, F::Varyings<f32>> + 'b,
+        fragment: F,
     ) -> DrawCall<'b> {
         let primitives = match &self.lines {
             Some(lines) => Primitives::Lines(lines),
             None => Primitives::Triangles(&self.mesh.triangles),
         };
-        DrawCall::new(primitives, self.mesh.positions.len(), |i| self.mesh.vertex(i), vertex, fragment)
+        let (count, attributes) = (self.mesh.positions.len(), |i| self.mesh.vertex(i));
+        match shading {
+            Shading::F32 => DrawCall::new(primitives, count, attributes, vertex, fragment),
+            Shading::F64 => {
+                DrawCall::one_by_one::<F64, _, _, N>(primitives, count, attributes, vertex, fragment)
+            }
+        }
     }
 }
 
 impl Renderer {
     /// The draw call of an object: its mesh with the programs of its material.
-    pub(super) fn draw_call<'a, L: Lane + 'a>(&'a self, object: &'a Object<'a>) -> DrawCall<'a> {
-        let u = &self.uniforms(object);
+    pub(super) fn draw_call<'a>(&'a self, object: &'a Object<'a>, shading: Shading) -> DrawCall<'a> {
+        let u = self.uniforms(object);
         let material = object.material;
-        let texture_1 = || self.sampler(&material.texture);
-        let texture_2 = || self.sampler(&material.height_map);
-        let environment = || self.sampler_cube(&material.environment);
+        let u_texture_1 = || self.sampler(&material.texture);
+        let u_texture_2 = || self.sampler(&material.height_map);
+        let u_texture_cubemap = || self.sampler_cube(&material.environment);
         match material.shader {
-            Shader::Wireframe => object.call(wireframe::vertex(u), wireframe::fragment::<L>(u)),
-            Shader::Normal => object.call(normal::vertex(u), normal::fragment::<L>(u)),
-            Shader::Diffuse => object.call(diffuse::vertex(u), diffuse::fragment::<L>(u)),
-            Shader::Phong => object.call(phong::vertex(u), phong::fragment::<L>(u)),
-            Shader::Texture => object.call(texture::vertex(u), texture::fragment::<L>(u, texture_1())),
-            Shader::Mirror => object.call(mirror::vertex(u), mirror::fragment::<L>(u, environment())),
-            Shader::Bump => object.call(bump::vertex(u), bump::fragment::<L>(u, texture_2())),
-            Shader::Displacement => {
-                object.call(displacement::vertex(u, texture_2()), displacement::fragment::<L>(u, texture_2()))
+            Shader::Wireframe => object.call(shading, wireframe::vertex(&u), wireframe::Fragment { u }),
+            Shader::Normal => object.call(shading, normal::vertex(&u), normal::Fragment {}),
+            Shader::Diffuse => object.call(shading, diffuse::vertex(&u), diffuse::Fragment { u }),
+            Shader::Phong => object.call(shading, phong::vertex(&u), phong::Fragment { u }),
+            Shader::Texture => {
+                let fragment = texture::Fragment { u_texture_1: u_texture_1() };
+                object.call(shading, texture::vertex(&u), fragment)
             }
-            Shader::Custom => object.call(
-                custom::vertex(u, texture_2()),
-                custom::fragment::<L>(u, texture_1(), texture_2(), environment()),
-            ),
+            Shader::Mirror => {
+                let fragment = mirror::Fragment { u, u_texture_cubemap: u_texture_cubemap() };
+                object.call(shading, mirror::vertex(&u), fragment)
+            }
+            Shader::Bump => {
+                let fragment = bump::Fragment { u, u_texture_2: u_texture_2() };
+                object.call(shading, bump::vertex(&u), fragment)
+            }
+            Shader::Displacement => {
+                let fragment = displacement::Fragment { u, u_texture_2: u_texture_2() };
+                object.call(shading, displacement::vertex(&u, u_texture_2()), fragment)
+            }
+            Shader::Custom => {
+                let fragment = custom::Fragment {
+                    u,
+                    u_texture_1: u_texture_1(),
+                    u_texture_2: u_texture_2(),
+                    u_texture_cubemap: u_texture_cubemap(),
+                };
+                object.call(shading, custom::vertex(&u, u_texture_2()), fragment)
+            }
         }
     }
 
