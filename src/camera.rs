@@ -3,7 +3,7 @@
 use nalgebra::{Matrix4, Vector3};
 
 use crate::{
-    cloth::grid::{self, Grid},
+    cloth::grid::{Grid, start_of},
     error::{Error, Kind, Result},
     math::{sin_cos_degrees, tan},
     scene::{Camera as Settings, Cloth, Scene, Vec3},
@@ -110,9 +110,9 @@ fn projection(settings: &Settings, aspect: f64) -> Matrix4<f64> {
 
 /// The mean of the starting points, at half its height.
 fn default_target(cloth: &Cloth) -> Result<Vec3> {
-    let start = grid::start(cloth, Grid::new(cloth)?)?;
-    let sum = (0..start.len()).fold(Vec3::zeros(), |sum, i| sum + start.get(i));
-    let mean = sum / start.len() as f64;
+    let grid = Grid::new(cloth)?;
+    let sum = (0..grid.len()).fold(Vec3::zeros(), |sum, point| sum + start_of(cloth, grid, point));
+    let mean = sum / grid.len() as f64;
     Ok(Vec3::new(mean.x, mean.y / 2.0, mean.z))
 }
 

@@ -36,7 +36,10 @@
 //! |---|---|
 //! | vector instructions and the numbers of the fragment stage | [`lanes`] |
 //! | scene file → validated scene → plan of what it needs | [`scene`] |
-//! | grid, springs, forces, collisions, stretch limit | [`cloth`] |
+//! | grid, springs, forces, stretch limit | [`cloth`] |
+//! | collisions with objects, and of the cloth with itself | `collision` |
+//! | how points move on under forces, and at which steps that is stable | [`integrator`] |
+//! | energies, extremes, rest, stability | [`diagnostics`] |
 //! | one step, one frame | [`simulation`] |
 //! | pictures that materials read | [`texture`], [`cubemap`], [`texture_source`] |
 //! | triangles with attributes | [`mesh`] |
@@ -50,14 +53,16 @@
 //! # Determinism
 //! Whatever reaches a result is made of + − × ÷ and square roots, which IEEE 754 rounds exactly,
 //! of integers, and of [`math`], one pinned source for every other function. Nothing is fused or
-//! reordered; work is cut into pieces of fixed size whose results do not depend on each other.
+//! reordered; work is divided into chunks of fixed size whose results do not depend on each other.
 
 pub mod error;
 pub mod math;
 pub mod lanes;
 pub mod scene;
-mod dispatch;
 pub mod cloth;
+mod collision;
+pub mod integrator;
+pub mod diagnostics;
 pub mod simulation;
 pub mod texture;
 pub mod cubemap;
@@ -69,3 +74,6 @@ pub mod raster;
 pub mod shader;
 pub mod render;
 pub mod output;
+
+#[doc = include_str!("../docs/architecture.md")]
+pub mod architecture {}

@@ -20,7 +20,7 @@ fn cost(scene: &Scene, frames: usize) -> Counters {
 /// The sphere scene with a floor, in which every phase has something to do.
 fn everything() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
+    scenes::add_plane(&mut scene, scenes::floor());
     scene
 }
 
@@ -115,6 +115,23 @@ fn a_step_allocates_nothing() {
         simulation.step();
         let allocations = allocation_counter::measure(|| (0..1500).for_each(|_| simulation.step()));
         assert_eq!(allocations.count_total, 0, "{name}");
+    }
+}
+
+/// What watches a step changes no bit of it, and takes no memory in it.
+#[test]
+fn observers_change_nothing() {
+    for scene in [everything(), scenes::self_collision()] {
+        let run = |watch: &dyn Fn(&mut Simulation)| {
+            let mut simulation = Simulation::new(&scene).unwrap();
+            watch(&mut simulation);
+            let allocations = allocation_counter::measure(|| (0..1800).for_each(|_| simulation.step()));
+            assert_eq!(allocations.count_total, 0);
+            (simulation.state_hash(), simulation.counters())
+        };
+        let plain = run(&|_| ());
+        assert_eq!(run(&Simulation::record_timings), plain, "with times");
+        assert_eq!(run(&|simulation| simulation.record_ledger().unwrap()), plain, "with a ledger");
     }
 }
 

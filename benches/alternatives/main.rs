@@ -14,11 +14,11 @@ mod drawing;
 #[allow(dead_code, reason = "the test that it belongs to needs more of it")]
 #[path = "../../tests/engine/gl/harness/mod.rs"]
 mod gl;
-#[path = "../../tests/support/naive/mod.rs"]
-mod naive;
 #[path = "../../tests/support/repository.rs"]
 mod repository;
 mod stepping;
+#[path = "../../examples/textbook_cloth.rs"]
+mod textbook_cloth;
 
 use std::process::Command;
 use std::time::{Duration, Instant};

@@ -1,8 +1,8 @@
-//! Steps of the cloth, next to the method written down step by step, as a student would.
+//! Steps of the cloth, next to the method written down step by step, as in a textbook.
 
 use drape::simulation::Simulation;
 
-use super::naive::{Cloth, Mistakes};
+use super::textbook_cloth::Cloth;
 use super::{medians, scene};
 
 /// Frames before the comparison: the cloth of selfCollision has fallen and folded by then.
@@ -18,12 +18,12 @@ pub(super) fn table(rounds: usize) {
         let triples = |points: &drape::cloth::Points| {
             (0..points.len()).map(|p| <[f64; 3]>::from(points.get(p))).collect()
         };
-        let mut naive = Cloth::new(&scene, Mistakes::default());
-        naive.x = triples(simulation.positions());
-        naive.last = triples(simulation.last_positions());
+        let mut textbook = Cloth::new(&scene);
+        textbook.x = triples(simulation.positions());
+        textbook.last = triples(simulation.last_positions());
         let steps = scene.sim.steps_per_frame;
         let ours = || simulation.advance_frame().unwrap();
-        let theirs = || (0..steps).for_each(|_| naive.step());
+        let theirs = || (0..steps).for_each(|_| textbook.step());
         let [ours, theirs] =
             medians(rounds, ours, theirs).map(|time| time.as_secs_f64() * 1e6 / f64::from(steps));
         println!("| {name} | {ours:.1} | {theirs:.1} | {:.1} |", theirs / ours);

@@ -3,19 +3,19 @@
 //! Standard output carries the result that was asked for and nothing else; everything else goes
 //! to standard error. The exit code is that of the error's [`Kind`].
 
-mod args;
-mod arguments;
-mod commands;
-mod animation;
-mod run;
 mod session;
+mod run;
+mod args;
+mod animation;
+mod commands;
+mod command_line;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use drape::error::{Error, Kind, Result};
 
-use arguments::{Arguments, Command};
+use command_line::{Command, CommandLine};
 use commands::{
     animate, check, compare, compare_positions, export, gallery, info, meta, render, simulate, stability,
     study,
@@ -26,16 +26,16 @@ use session::{Session, exit_code, guard};
 
 fn main() -> ExitCode {
     let json = std::env::args_os().any(|argument| argument == "--json");
-    ExitCode::from(guard::guarded(json, || match Arguments::try_parse() {
+    ExitCode::from(guard::guarded(json, || match CommandLine::try_parse() {
         Ok(arguments) => {
             let ui = arguments.ui();
             exit_code(&ui, execute(&arguments, ui))
         }
-        Err(refusal) => arguments::refuse(&refusal, &Ui::before_parsing(json)),
+        Err(refusal) => command_line::refuse(&refusal, &Ui::before_parsing(json)),
     }))
 }
 
-fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
+fn execute(arguments: &CommandLine, ui: Ui) -> Result<()> {
     let session = Session { ui, signals: Signals::install()? };
     rayon::ThreadPoolBuilder::new().num_threads(arguments.threads()).build_global().map_err(|e| {
         Error::new(Kind::Io, format!("cannot start the threads: {e}"))
@@ -51,9 +51,9 @@ fn execute(arguments: &Arguments, ui: Ui) -> Result<()> {
         Command::Info(args) => info::run(args, &session),
         Command::Study(args) => study::run(args, &session),
         Command::Check(args) => check::run(args, &session),
-        Command::Schema => meta::schema(),
-        Command::Completions(args) => meta::completions(args),
-        Command::Man(args) => meta::man(args),
+        Command::Schema => meta::schema(&session),
+        Command::Completions(args) => meta::completions(args, CommandLine::command(), &session),
+        Command::Man(args) => meta::man(args, CommandLine::command(), &session),
         Command::Stability(args) => stability::run(args, &session),
         Command::Gallery(args) => gallery::run(args, &session),
     }

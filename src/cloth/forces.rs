@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::gather::Gather;
+use super::accumulate::Accumulator;
 use super::real::Real;
 use super::springs::{Family, Springs};
 use super::{Counters, Points};
@@ -11,7 +11,7 @@ use crate::error::Result;
 /// The forces on the points of a cloth.
 #[derive(Clone, Debug)]
 pub(crate) struct Forces<T = f64> {
-    gather: Gather<T>,
+    accumulator: Accumulator<T>,
 }
 
 impl<T: Real> Forces<T> {
@@ -20,12 +20,12 @@ impl<T: Real> Forces<T> {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(springs: &Springs) -> Result<Self> {
-        Ok(Self { gather: Gather::new(springs)? })
+        Ok(Self { accumulator: Accumulator::new(springs)? })
     }
 
     /// The forces that were computed last, in N.
     pub(crate) fn sum(&self) -> &Points<T> {
-        &self.gather.sum
+        &self.accumulator.sum
     }
 
     /// Computes the force on every point at `x`: its `weight` and its springs, in N.
@@ -36,12 +36,12 @@ impl<T: Real> Forces<T> {
         weight: [T; 3],
         counters: &mut Counters,
     ) {
-        self.gather.sum_up(springs, weight, |_, family, points, out| pull(x, family, points, out));
+        self.accumulator.accumulate(springs, weight, |_, family, points, out| pull(x, family, points, out));
         counters.springs_evaluated += springs.len() as u64;
     }
 }
 
-/// The pulls of one family's springs on the points that made them.
+/// The pulls of one family's springs on their owners, the points `a` in the formula.
 #[inline(always)]
 fn pull<T: Real>(x: &Points<T>, family: &Family, points: Range<usize>, out: [&mut [T]; 3]) {
     let b = points.start - family.offset..points.end - family.offset;

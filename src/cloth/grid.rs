@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Points, filled, too_large};
 use crate::error::{Error, Kind, Result};
 use crate::math::splitmix64;
-use crate::scene::{Cloth, Orientation};
+use crate::scene::{Cloth, Orientation, Vec3};
 
 /// The size of a grid: `width` × `height` points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,14 +20,16 @@ impl Grid {
     /// The grid of `cloth`.
     ///
     /// # Errors
-    /// [`Kind::Scene`] when a side has fewer than two points, or when the points cannot be counted.
+    /// [`Kind::Scene`] when a side has fewer than two points, or when their positions do not fit in memory.
     pub fn new(cloth: &Cloth) -> Result<Self> {
         let (width, height) = (cloth.num_width_points, cloth.num_height_points);
         if width < 2 || height < 2 {
             let message = format!("the cloth has {width} x {height} points, not at least 2 x 2");
             return Err(Error::new(Kind::Scene, message));
         }
-        width.checked_mul(height).ok_or_else(too_large)?;
+        let numbers =
+            width.checked_mul(height).and_then(|points| points.checked_mul(3)).ok_or_else(too_large)?;
+        Vec::<f64>::new().try_reserve_exact(numbers).map_err(|_| too_large())?;
         Ok(Self { width, height })
     }
 
@@ -54,17 +56,19 @@ impl Grid {
 /// [`Kind::Scene`] when the points do not fit in memory.
 pub fn start(cloth: &Cloth, grid: Grid) -> Result<Points> {
     let mut points = Points::zeros(grid.len())?;
-    for index in 0..grid.len() {
-        let (i, j) = grid.column_row(index);
-        let u = cloth.width * i as f64 / (grid.width - 1) as f64;
-        let v = cloth.height * j as f64 / (grid.height - 1) as f64;
-        let (y, z) = match cloth.orientation {
-            Orientation::Horizontal => (1.0, v),
-            Orientation::Vertical => (v, offset(index)),
-        };
-        (points.x[index], points.y[index], points.z[index]) = (u, y, z);
-    }
+    (0..grid.len()).for_each(|index| points.set(index, start_of(cloth, grid, index)));
     Ok(points)
+}
+
+/// Where point `index` of `cloth` starts, as [`start`].
+pub fn start_of(cloth: &Cloth, grid: Grid, index: usize) -> Vec3 {
+    let (i, j) = grid.column_row(index);
+    let u = cloth.width * i as f64 / (grid.width - 1) as f64;
+    let v = cloth.height * j as f64 / (grid.height - 1) as f64;
+    match cloth.orientation {
+        Orientation::Horizontal => Vec3::new(u, 1.0, v),
+        Orientation::Vertical => Vec3::new(u, v, offset(index)),
+    }
 }
 
 /// Offset of point `index` of an upright cloth from its plane, -0.001..=0.001 m.

@@ -10,9 +10,9 @@ use rayon::prelude::*;
 
 use super::grid::Pins;
 use super::springs::{Family, Springs};
-use super::{Counters, Points, dot, filled, pieces};
-use crate::dispatch::{Work, dispatch};
+use super::{Counters, Points, chunks, dot, filled};
 use crate::error::Result;
+use crate::lanes::level::dispatch_plain;
 use crate::scene::Vec3;
 
 /// Points in a block.
@@ -51,7 +51,7 @@ impl StretchLimit {
             reach.push(squares);
         }
         let points = springs.grid.len();
-        let blocks = if points < pieces::MANY { 0 } else { points.div_ceil(BLOCK) };
+        let blocks = if points < chunks::MANY { 0 } else { points.div_ceil(BLOCK) };
         Ok(Self { factor, passes, reach, long: filled(blocks, false)? })
     }
 
@@ -59,7 +59,7 @@ impl StretchLimit {
     pub(crate) fn apply(&mut self, x: &mut Points, springs: &Springs, pins: &Pins, counters: &mut Counters) {
         for _ in 0..self.passes {
             self.look_ahead(x, springs);
-            dispatch(Pass { limit: self, x, springs, pins, counters });
+            counters.springs_limited += dispatch_plain!(self.pass(x, springs, pins));
             counters.springs_checked += springs.len() as u64;
         }
     }
@@ -67,13 +67,34 @@ impl StretchLimit {
     /// Finds the blocks of a large cloth in which a spring may be too long.
     fn look_ahead(&mut self, x: &Points, springs: &Springs) {
         let Self { reach, long, .. } = self;
-        let at_once = pieces::POINTS / BLOCK;
-        long.par_chunks_mut(at_once).enumerate().for_each(|(piece, long)| {
-            dispatch(Look { x, springs, reach, first: piece * at_once, long });
+        let at_once = chunks::POINTS / BLOCK;
+        long.par_chunks_mut(at_once).enumerate().for_each(|(chunk, long)| {
+            dispatch_plain!(look(x, springs, reach, chunk * at_once, long));
         });
     }
 
-    /// Shortens the springs made by the points from `a` on, up to a block of them; how many.
+    /// Shortens each spring that is too long, in creation order; how many.
+    #[inline(always)]
+    fn pass(&self, x: &mut Points, springs: &Springs, pins: &Pins) -> u64 {
+        // A spring ends at most two rows above; up to here an end may have moved since the look ahead.
+        let two_rows = 2 * springs.grid.width;
+        let mut moved_to = if self.long.is_empty() { x.len() } else { 0 };
+        let mut count = 0;
+        for (block, start) in (0..x.len()).step_by(BLOCK).enumerate() {
+            let long =
+                if start < moved_to { any_long(x, springs, &self.reach, start) } else { self.long[block] };
+            if long {
+                let shortened = self.shorten(x, springs, pins, start);
+                count += shortened;
+                if shortened > 0 {
+                    moved_to = moved_to.max(start + BLOCK + two_rows);
+                }
+            }
+        }
+        count
+    }
+
+    /// Shortens the springs owned by the points from `start` on, up to a block of them; how many.
     fn shorten(&self, x: &mut Points, springs: &Springs, pins: &Pins, start: usize) -> u64 {
         let mut count = 0;
         for a in start..(start + BLOCK).min(x.len()) {
@@ -90,7 +111,7 @@ impl StretchLimit {
         count
     }
 
-    /// Shortens the spring of `family` that point `a` made, which has length `l` and leads along
+    /// Shortens the spring of `family` that point `a` owns, which has length `l` and leads along
     /// `e` to its other end; whether it was too long and an end could move.
     fn shorten_spring(
         &self,
@@ -120,55 +141,15 @@ impl StretchLimit {
     }
 }
 
-/// One pass over all springs.
-struct Pass<'a> {
-    limit: &'a StretchLimit,
-    x: &'a mut Points,
-    springs: &'a Springs,
-    pins: &'a Pins,
-    counters: &'a mut Counters,
-}
-
-impl Work for Pass<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let Self { limit, x, springs, pins, counters } = self;
-        // A spring ends at most two rows above; up to here an end may have moved since the look ahead.
-        let two_rows = 2 * springs.grid.width;
-        let mut moved_to = if limit.long.is_empty() { x.len() } else { 0 };
-        for (block, start) in (0..x.len()).step_by(BLOCK).enumerate() {
-            let long =
-                if start < moved_to { any_long(x, springs, &limit.reach, start) } else { limit.long[block] };
-            if long {
-                let shortened = limit.shorten(x, springs, pins, start);
-                counters.springs_limited += shortened;
-                if shortened > 0 {
-                    moved_to = moved_to.max(start + BLOCK + two_rows);
-                }
-            }
-        }
+/// Looks at the blocks from `first` on: whether a spring in each may be too long.
+#[inline(always)]
+fn look(x: &Points, springs: &Springs, reach: &[Vec<f64>], first: usize, long: &mut [bool]) {
+    for (block, long) in (first..).zip(long) {
+        *long = any_long(x, springs, reach, block * BLOCK);
     }
 }
 
-/// The look at blocks from `first` on.
-struct Look<'a> {
-    x: &'a Points,
-    springs: &'a Springs,
-    reach: &'a [Vec<f64>],
-    first: usize,
-    long: &'a mut [bool],
-}
-
-impl Work for Look<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for (block, long) in (self.first..).zip(self.long) {
-            *long = any_long(self.x, self.springs, self.reach, block * BLOCK);
-        }
-    }
-}
-
-/// Whether a spring made by the points from `start` on, up to a block of them, may be too long.
+/// Whether a spring owned by the points from `start` on, up to a block of them, may be too long.
 /// The blocks in the first two rows, where a spring may have no other end, and the last one, if
 /// it is not a whole block, always may.
 ///

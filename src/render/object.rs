@@ -6,7 +6,7 @@ use crate::{
     cloth::Points,
     glsl::Exponent,
     lanes::F64,
-    mesh::{Attributes, Mesh, SpringKinds, spring_lines},
+    mesh::{Attributes, Mesh, Placement, SpringKinds, spring_lines},
     raster::{DrawCall, FragmentProgram, Primitives, VertexProgram},
     scene::{Material, Needs, Scene, Shader, Vec3},
     shader::{
@@ -15,9 +15,6 @@ use crate::{
         texture, wireframe,
     },
 };
-
-/// Part of its radius at which a ball is drawn, so that the cloth's flat triangles do not cut it.
-const DRAWN_RADIUS: f64 = 0.92;
 
 /// A mesh in the world, and what it looks like.
 pub(super) struct Object<'a> {
@@ -28,24 +25,19 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// What is drawn, in order: the cloth, then the planes, then the spheres.
+    /// What is drawn, in order: the cloth, then the colliders.
     pub(super) fn all(scene: &'a Scene, points: &Points, springs: Option<SpringKinds>) -> Vec<Self> {
         let mut objects = Vec::new();
         if let Some(cloth) = &scene.cloth {
             let lines = (cloth.material.shader == Shader::Wireframe)
                 .then(|| spring_lines(cloth, springs.unwrap_or_else(|| SpringKinds::of(cloth))));
             let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
-            objects.push(Self { mesh, lines, model: model(&Vec3::zeros(), 1.0), material: &cloth.material });
+            objects.push(Self { mesh, lines, model: model(Placement::WORLD), material: &cloth.material });
         }
-        for plane in &scene.planes {
-            let mesh = Mesh::plane(plane, Needs::of(plane.material.shader));
-            let model = model(&Vec3::zeros(), 1.0);
-            objects.push(Self { mesh, lines: None, model, material: &plane.material });
-        }
-        for sphere in &scene.spheres {
-            let mesh = Mesh::sphere(sphere, Needs::of(sphere.material.shader));
-            let model = model(&sphere.origin, sphere.radius * DRAWN_RADIUS);
-            objects.push(Self { mesh, lines: None, model, material: &sphere.material });
+        for collider in &scene.colliders {
+            let material = collider.material();
+            let (mesh, placement) = Mesh::collider(collider, Needs::of(material.shader));
+            objects.push(Self { mesh, lines: None, model: model(placement), material });
         }
         objects
     }
@@ -147,10 +139,10 @@ fn find<'a, T>(named: &'a [(String, T)], name: &str) -> Option<&'a T> {
     named.iter().find(|(other, _)| other == name).map(|(_, value)| value)
 }
 
-/// Scales by `scale`, then moves to `origin`.
-fn model(origin: &Vec3, scale: f64) -> Columns {
+/// The placement as a matrix.
+fn model(Placement { origin, scale }: Placement) -> Columns {
     let s = to_f32(scale);
-    let [x, y, z] = round(*origin);
+    let [x, y, z] = round(origin);
     [[s, 0.0, 0.0, 0.0], [0.0, s, 0.0, 0.0], [0.0, 0.0, s, 0.0], [x, y, z, 1.0]]
 }
 

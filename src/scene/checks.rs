@@ -1,11 +1,13 @@
 //! Checks that involve more than one key.
 
 use std::collections::BTreeMap;
+use std::iter;
 
 use super::format::Node;
 use super::report::{Finding, Report};
 use super::source::Span;
-use super::{Cloth, Damping, Integrator, Precision, Scene, SelfCollision, Start};
+use super::words::enumerated;
+use super::{Cloth, ColliderKind, Damping, Integrator, Precision, Scene, SelfCollision, Start};
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -181,15 +183,20 @@ impl Checks<'_> {
 
     fn object_count(&mut self) {
         let scene = self.scene;
-        let count = usize::from(scene.cloth.is_some()) + scene.planes.len() + scene.spheres.len();
+        let count = scene.materials().count();
         if count <= MAX_OBJECTS {
             return;
         }
-        let key = if scene.planes.len() > scene.spheres.len() { "plane" } else { "sphere" };
+        let counts = scene.collider_counts();
+        let kind = ColliderKind::ALL.iter().copied().max_by_key(|&kind| counts[kind]);
+        let key = kind.map_or("cloth", ColliderKind::key);
+        let plurals = counts.entries().map(|(plural, _)| plural);
+        let names: Vec<String> = iter::once("cloth").chain(plurals).map(str::to_owned).collect();
+        let names = enumerated(&names, "and");
         let place = self.span(key).map(Span::first);
         let finding = Finding::new("scene::too_many_objects", format!("{count} objects are too many"))
             .key(key)
-            .help(format!("cloth, planes and spheres together may be at most {MAX_OBJECTS}"));
+            .help(format!("{names} together may be at most {MAX_OBJECTS}"));
         self.error(place, "most of them are here", finding);
     }
 

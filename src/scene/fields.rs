@@ -3,13 +3,13 @@
 
 use super::checks::MAX_RESOLUTION;
 use super::compound::{Counts, Direction, GridPoints, OrNull, Vector};
-use super::names::{CONTACTS, DAMPINGS, FILTERS, INTEGRATORS, PRECISIONS, SELF_COLLISIONS, STARTS};
+use super::names::{CONTACTS, DAMPINGS, FILTERS, PRECISIONS, SELF_COLLISIONS, STARTS};
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::reader::Object;
 use super::scalar::{Choice, Coded, Count, Flag, Name, Number};
 use super::{
-    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision,
-    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    Camera, Cloth, Collider, ColliderKind, Contact, Damping, Filter, Integrator, Light, Material,
+    Orientation, Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
 };
 
 /// The sample counts of `render.samples`.
@@ -33,12 +33,16 @@ pub(super) fn scene(at: &mut Object) -> Option<Scene> {
     let on_plane =
         if common.1 { common.0.clone() } else { Material { color: grey(0.7), ..common.0.clone() } };
     let cloth = at.maybe("cloth", |at| cloth(at, &common.0));
-    let planes = at.each("plane", |at| plane(at, &on_plane));
-    let spheres = at.each("sphere", |at| sphere(at, &common.0));
+    let mut collider = |kind: ColliderKind| {
+        at.each(kind.key(), |at| match kind {
+            ColliderKind::Plane => Collider::Plane(plane(at, &on_plane)),
+            ColliderKind::Sphere => Collider::Sphere(sphere(at, &common.0)),
+        })
+    };
+    let colliders = ColliderKind::ALL.iter().flat_map(|&kind| collider(kind)).collect();
     Some(Scene {
         cloth,
-        planes,
-        spheres,
+        colliders,
         sim: at.group("sim", sim)?,
         camera: at.group("camera", camera)?,
         light: at.group("light", light)?,
@@ -95,7 +99,7 @@ fn sim(at: &mut Object) -> Sim {
         fps: at.optional("fps", 90.0, Number(from_to(1e-6, 1e9).unit("frames/s"))),
         steps_per_frame: at.optional("steps_per_frame", 30, Count(1, 1_000_000_000)),
         gravity: at.optional("gravity", Vec3::new(0.0, -9.8, 0.0), Vector(ANY.unit("m/s²"))),
-        integrator: at.optional("integrator", Integrator::Verlet, Choice(INTEGRATORS)),
+        integrator: at.optional("integrator", Integrator::Verlet, Choice(Integrator::NAMES)),
         iterations: at.optional("iterations", 1, Count(1, 1_000_000)),
         tolerance: at.optional("tolerance", 1e-4, Number(from_to(1e-15, 1.0))),
         precision: at.optional("precision", Precision::F64, Choice(PRECISIONS)),

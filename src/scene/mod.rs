@@ -6,6 +6,7 @@
 //! squares and quotients of such numbers stay finite too.
 
 mod checks;
+mod collider;
 mod compound;
 mod fields;
 mod format;
@@ -31,6 +32,7 @@ mod words;
 use nalgebra::Vector3;
 
 pub use checks::{MAX_OBJECTS, MAX_POINTS, MAX_RESOLUTION};
+pub use collider::{Collider, ColliderKind, PerKind, Plane, Sphere};
 pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
 pub use plan::{Item, Needs, ObjectPlan, Plan};
 pub use schema::schema;
@@ -44,10 +46,8 @@ pub type Vec3 = Vector3<f64>;
 pub struct Scene {
     /// The cloth, if the scene has one.
     pub cloth: Option<Cloth>,
-    /// The planes, in file order.
-    pub planes: Vec<Plane>,
-    /// The spheres, in file order.
-    pub spheres: Vec<Sphere>,
+    /// What the cloth collides with: the planes, then the spheres, each in file order.
+    pub colliders: Vec<Collider>,
     /// How the cloth is moved.
     pub sim: Sim,
     /// Where the picture is taken from.
@@ -56,6 +56,43 @@ pub struct Scene {
     pub light: Light,
     /// Picture size, samples, background and moment.
     pub render: Render,
+}
+
+impl Scene {
+    /// The planes, in file order.
+    pub fn planes(&self) -> impl Iterator<Item = &Plane> {
+        self.colliders.iter().filter_map(|collider| match collider {
+            Collider::Plane(plane) => Some(plane),
+            _ => None,
+        })
+    }
+
+    /// The spheres, in file order.
+    pub fn spheres(&self) -> impl Iterator<Item = &Sphere> {
+        self.colliders.iter().filter_map(|collider| match collider {
+            Collider::Sphere(sphere) => Some(sphere),
+            _ => None,
+        })
+    }
+
+    /// How many colliders there are of each kind.
+    pub fn collider_counts(&self) -> PerKind<usize> {
+        let mut counts = PerKind::default();
+        self.colliders.iter().for_each(|collider| counts[collider.kind()] += 1);
+        counts
+    }
+
+    /// What each drawn object looks like, in draw order: the cloth, then the colliders.
+    pub fn materials(&self) -> impl Iterator<Item = &Material> {
+        let cloth = self.cloth.iter().map(|cloth| &cloth.material);
+        cloth.chain(self.colliders.iter().map(Collider::material))
+    }
+
+    /// The same, to be changed.
+    pub fn materials_mut(&mut self) -> impl Iterator<Item = &mut Material> {
+        let cloth = self.cloth.iter_mut().map(|cloth| &mut cloth.material);
+        cloth.chain(self.colliders.iter_mut().map(Collider::material_mut))
+    }
 }
 
 /// A rectangular cloth of point masses.
@@ -99,35 +136,6 @@ pub enum Orientation {
     Horizontal,
     /// File value 1: in the plane z = 0 but for an offset of at most 1 mm per point.
     Vertical,
-}
-
-/// A ball that the cloth collides with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sphere {
-    /// Centre, in metres.
-    pub origin: Vec3,
-    /// Radius, in metres (> 0).
-    pub radius: f64,
-    /// Part of the sliding that contact takes away (0..=1).
-    pub friction: f64,
-    /// Latitude and longitude counts of the drawn mesh (latitude 2..=[`MAX_RESOLUTION`],
-    /// longitude 3..=[`MAX_RESOLUTION`]).
-    pub resolution: [u32; 2],
-    /// What the ball looks like.
-    pub material: Material,
-}
-
-/// An infinite plane that the cloth collides with, drawn as a square of 4 m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plane {
-    /// A point of the plane, in metres.
-    pub point: Vec3,
-    /// Its normal as the file gives it: any length but 0.
-    pub normal: Vec3,
-    /// Part of the sliding that contact takes away (0..=1).
-    pub friction: f64,
-    /// What the plane looks like.
-    pub material: Material,
 }
 
 /// The orbit camera of the report's viewer.

@@ -23,19 +23,20 @@ impl Shader {
 }
 
 impl Integrator {
+    /// Every integrator with its name.
+    pub const NAMES: &'static [(&'static str, Self)] = &[
+        ("verlet", Self::Verlet),
+        ("rk4", Self::Rk4),
+        ("xpbd", Self::Xpbd),
+        ("implicit_euler", Self::ImplicitEuler),
+        ("bdf2", Self::Bdf2),
+    ];
+
     /// The name of this integrator.
     pub fn name(self) -> &'static str {
-        INTEGRATORS.iter().find(|(_, integrator)| *integrator == self).map_or("", |(name, _)| name)
+        Self::NAMES.iter().find(|(_, integrator)| *integrator == self).map_or("", |(name, _)| name)
     }
 }
-
-/// `sim.integrator`
-pub(super) const INTEGRATORS: &[(&str, Integrator)] = &[
-    ("verlet", Integrator::Verlet),
-    ("xpbd", Integrator::Xpbd),
-    ("implicit_euler", Integrator::ImplicitEuler),
-    ("bdf2", Integrator::Bdf2),
-];
 
 /// `sim.precision`
 pub(super) const PRECISIONS: &[(&str, Precision)] = &[("f64", Precision::F64), ("f32", Precision::F32)];

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::collider::ColliderKind;
 use super::format::{Json, Member, Node, parse};
 use super::report::{Finding, Report};
 use super::source::Span;
@@ -10,9 +11,6 @@ use crate::error::{Error, Kind, Result};
 
 /// Most steps of a `--set` path; a scene needs four.
 const MOST_STEPS: usize = 64;
-
-/// Keys that hold one object or a list of them.
-const LISTS: [&str; 2] = ["sphere", "plane"];
 
 /// `target` changed by a JSON merge patch (RFC 7396): objects are merged, `null` removes, anything
 /// else replaces.
@@ -114,10 +112,10 @@ pub(super) fn apply(report: &mut Report, document: &mut Node, set: Set) {
     insert(report, document, &steps, "", set.value);
 }
 
-/// Lets one object count as a list of one, and a list of one as its object.
+/// Lets one collider count as a list of one, and a list of one as its only collider.
 fn list_steps(document: &Node, mut steps: Vec<Step>) -> Vec<Step> {
     let [list, second, ..] = steps.as_slice() else { return steps };
-    if !LISTS.contains(&list.name.as_str()) {
+    if ColliderKind::ALL.iter().all(|kind| kind.key() != list.name) {
         return steps;
     }
     match document.get(&list.name).map(|node| &node.json) {

@@ -1,21 +1,15 @@
 //! What a scene needs and why, so that nothing else is allocated, read or run.
 
-use super::{Cloth, Contact, Material, Scene, SelfCollision, Shader};
+use super::{Cloth, ColliderKind, Contact, Material, Scene, SelfCollision, Shader};
 
 /// What a scene needs. Everything that is `false` or absent here can be left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// How self-collision is found; off when the phase is left out.
     pub self_collision: SelfCollision,
-    /// Whether points are tested against planes.
-    pub planes: bool,
-    /// Whether points are tested against spheres.
-    pub spheres: bool,
-    /// Whether points are kept out of planes and spheres for certain.
-    pub kept_outside: bool,
     /// The strain that the stretch limit leaves, if it runs.
     pub stretch_limit: Option<f64>,
-    /// What is drawn, in draw order: cloth, planes, spheres.
+    /// What is drawn, in draw order: the cloth, then the colliders.
     pub objects: Vec<ObjectPlan>,
     /// The textures and height maps to read, each once, in order of first use.
     pub textures: Vec<String>,
@@ -101,8 +95,9 @@ impl Plan {
                 | note(items, "shearing springs", spring(scene, "shearing", |c| c.enable_shearing))
                 | note(items, "bending springs", spring(scene, "bending", |c| c.enable_bending));
         let collides_itself = note(items, "self-collision", self_collision(scene));
-        let planes = note(items, "collision with planes", collision(scene, "plane", scene.planes.len()));
-        let spheres = note(items, "collision with spheres", collision(scene, "sphere", scene.spheres.len()));
+        for &kind in ColliderKind::ALL {
+            note(items, &format!("collision with {}", kind.plural()), collision(scene, kind));
+        }
         let limited = note(items, "stretch limit", stretch_limit(scene, any_spring));
         let drawn = drawn(scene);
         let objects = drawn.iter().map(|(name, material)| object(name, material, items)).collect();
@@ -112,9 +107,6 @@ impl Plan {
         let items = std::mem::take(items);
         Self {
             self_collision: if collides_itself { scene.sim.self_collision } else { SelfCollision::Off },
-            planes,
-            spheres,
-            kept_outside: scene.sim.contact == Contact::Outside && (planes || spheres),
             stretch_limit: scene.sim.stretch_limit.filter(|_| limited),
             objects,
             textures,
@@ -165,15 +157,15 @@ fn self_collision(scene: &Scene) -> Decision {
     Ok(format!("cloth.thickness is {} m{seen}", cloth.thickness))
 }
 
-fn collision(scene: &Scene, kind: &str, count: usize) -> Decision {
+fn collision(scene: &Scene, kind: ColliderKind) -> Decision {
     cloth(scene)?;
-    match count {
-        0 => Err(format!("the scene has no {kind}")),
-        _ => {
-            let plural = if count == 1 { "" } else { "s" };
+    match scene.collider_counts()[kind] {
+        0 => Err(format!("the scene has no {}", kind.key())),
+        count => {
+            let name = if count == 1 { kind.key() } else { kind.plural() };
             let outside = scene.sim.contact == Contact::Outside;
             let kept = if outside { ", and sim.contact is outside: points are kept out" } else { "" };
-            Ok(format!("the scene has {count} {kind}{plural}{kept}"))
+            Ok(format!("the scene has {count} {name}{kept}"))
         }
     }
 }
@@ -190,18 +182,16 @@ fn stretch_limit(scene: &Scene, any_spring: bool) -> Decision {
 /// The drawn objects by name, in draw order.
 fn drawn(scene: &Scene) -> Vec<(String, &Material)> {
     let cloth = scene.cloth.iter().map(|cloth| ("cloth".into(), &cloth.material));
-    let planes = numbered("plane", scene.planes.iter().map(|plane| &plane.material));
-    let spheres = numbered("sphere", scene.spheres.iter().map(|sphere| &sphere.material));
-    cloth.chain(planes).chain(spheres).collect()
+    let colliders = (0..scene.colliders.len()).map(|i| (name(scene, i), scene.colliders[i].material()));
+    cloth.chain(colliders).collect()
 }
 
-fn numbered<'a>(
-    kind: &str,
-    materials: impl ExactSizeIterator<Item = &'a Material>,
-) -> impl Iterator<Item = (String, &'a Material)> {
-    let several = materials.len() > 1;
-    let name = move |i| if several { format!("{kind}.{i}") } else { kind.to_owned() };
-    materials.enumerate().map(move |(i, material)| (name(i), material))
+/// The dotted path of collider `i`: its kind, with a number if there are several of that kind.
+fn name(scene: &Scene, i: usize) -> String {
+    let kind = scene.colliders[i].kind();
+    let key = kind.key();
+    let before = |end| scene.colliders[..end].iter().filter(|other| other.kind() == kind).count();
+    if before(scene.colliders.len()) > 1 { format!("{key}.{}", before(i)) } else { key.into() }
 }
 
 fn object(name: &str, material: &Material, items: &mut Vec<Item>) -> ObjectPlan {

@@ -38,22 +38,24 @@ pub struct Sim {
 
 /// The scheme that advances the positions (`sim.integrator`).
 ///
-/// README has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones.
-///
-/// Where Verlet's scheme is stable it is the cheapest by far; the others are for cloth so stiff and
-/// light that it would need thousands of steps a frame.
+/// docs/integrators.md has the error of each on the stock pinned2 cloth, docs/findings.md on stiffer ones. For the same work no
+/// implicit method was as accurate as Verlet's scheme at any stiffness that was tried, and fewer implicit steps
+/// can cost more, because each takes more iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrator {
     /// Position Verlet, the report's. Explicit: stable for small steps only, which are checked
     /// before the first.
     Verlet,
-    /// Extended position-based dynamics, first order, with `sim.iterations`: `src/cloth/xpbd.rs`. Never
+    /// The classical Runge-Kutta method, fourth order, four evaluations of the forces in a step:
+    /// `src/integrator/rk4.rs`. Explicit: stable for small steps only, which are checked before the first.
+    Rk4,
+    /// Extended position-based dynamics, first order, with `sim.iterations`: `src/integrator/xpbd.rs`. Never
     /// refused, but wrong and gaining energy where its passes are too few; then the run is stopped.
     Xpbd,
-    /// Implicit Euler, first order, solved to `sim.tolerance`: `src/cloth/implicit_euler.rs`. Stable for
+    /// Implicit Euler, first order, solved to `sim.tolerance`: `src/integrator/implicit_euler.rs`. Stable for
     /// every step; takes energy.
     ImplicitEuler,
-    /// The second backward differentiation formula, solved to `sim.tolerance`: `src/cloth/bdf2.rs`.
+    /// The second backward differentiation formula, solved to `sim.tolerance`: `src/integrator/bdf2.rs`.
     /// Second order and stable for every step.
     Bdf2,
 }
@@ -64,7 +66,7 @@ pub enum Precision {
     /// binary64, the report's.
     F64,
     /// binary32 for positions, displacements and forces of [`Integrator::Verlet`], in displacement
-    /// form: `src/cloth/single.rs`. Measured on the stock pinned2 cloth without limit and
+    /// form: `src/integrator/verlet_f32.rs`. Measured on the stock pinned2 cloth without limit and
     /// self-collision, at 0.5 s, against binary64: at most 2.5e-6 m apart at 30 steps a frame, 7.4e-6 m
     /// at 120 and 3.4e-5 m at 480. It saves about a twentieth of the time: for comparison, not speed.
     F32,
@@ -89,7 +91,7 @@ pub enum Damping {
     PerStep,
     /// Per second, at the rate `c = -2700 ln(1 - damping / 100)` per second, which is the report's at
     /// its 2700 steps a second; as a force `-c m v` at the middle of the step, second order, and at
-    /// the end of the step for integrators beside Verlet's scheme.
+    /// the end of the step for integrators other than Verlet's scheme.
     /// Free fall ends at `g / c` for every number of steps. Measured on a hanging cloth of 8 x 8
     /// points at 0.2 s, with the half-step start: 2.4e-7 m off at 30 steps a frame; with damping
     /// per step it is another cloth, 35 mm off at 10 and 71 mm at 120 steps a frame.
@@ -101,7 +103,7 @@ pub enum Damping {
 pub enum SelfCollision {
     /// Only within a point's own box, the report's.
     SameBox,
-    /// All, as comparing each point with every other would: `src/cloth/neighbors.rs`.
+    /// All, as comparing each point with every other would: `src/collision/neighbors.rs`.
     Neighbors,
     /// Not at all.
     Off,
@@ -113,6 +115,6 @@ pub enum Contact {
     /// Nothing, the report's: friction and the stretch limit leave points inside.
     Report,
     /// After every step no free point is inside a sphere, or beyond a plane from where it
-    /// started, except by rounding; where objects overlap, inside the last one: `src/cloth/contact.rs`.
+    /// started, except by rounding; where objects overlap, inside the last one: `src/collision/contact.rs`.
     Outside,
 }

@@ -25,9 +25,13 @@ pub(super) fn quoted(path: &str) -> String {
 
 /// The names as a choice: `a, b or c`.
 pub(super) fn alternatives(names: impl Iterator<Item = String>) -> String {
-    let names: Vec<String> = names.collect();
-    match names.as_slice() {
-        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+    enumerated(&names.collect::<Vec<_>>(), "or")
+}
+
+/// The names with a word before the last: `a, b and c`.
+pub(super) fn enumerated(names: &[String], word: &str) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} {word} {last}", first.join(", ")),
         all => all.concat(),
     }
 }

@@ -1,40 +1,37 @@
-//! The state of a cloth and the step that moves it on.
+//! The state of a cloth, and the phases of a step that change it.
 
-use super::scheme::Scheme;
-use super::stopwatch::Stopwatch;
-use crate::cloth::collide::Objects;
-use crate::cloth::contact::Outside;
+use super::phase::Phase;
 use crate::cloth::forces::Forces;
 use crate::cloth::grid::{self, Grid, Pins};
-use crate::cloth::guard::{Allowance, Budget};
-use crate::cloth::ledger::{Ledger, Recorder};
-use crate::cloth::neighbors::Neighbors;
-use crate::cloth::self_collision::SelfCollision;
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
-use crate::cloth::{Constants, Counters, Points};
+use crate::cloth::{Counters, Model, Params, Points};
+use crate::collision::Colliders;
+use crate::collision::self_collision::SelfCollision;
+use crate::diagnostics::energy::Energy;
+use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
-use crate::scene::{Plan, Scene, SelfCollision as Mode, Start};
+use crate::integrator::{self, Integrator};
+use crate::scene::{ColliderKind, Plan, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]
 pub(super) struct State {
-    pub(super) constants: Constants,
+    pub(super) params: Params,
     pub(super) grid: Grid,
     pub(super) pins: Pins,
     pub(super) springs: Springs,
     pub(super) x: Points,
     pub(super) last: Points,
-    pub(super) scheme: Scheme,
+    pub(super) integrator: Box<dyn Integrator>,
     pub(super) self_collision: Option<SelfCollision>,
-    neighbors: Option<Neighbors>,
-    pub(super) objects: Option<Objects>,
+    pub(super) colliders: Colliders,
     stretch_limit: Option<StretchLimit>,
-    outside: Option<Outside>,
-    pub(super) recorder: Option<Recorder>,
+    /// What the phases of this step did so far.
+    pub(super) work: Counters,
     pub(super) allowance: Allowance,
-    pub(super) budget: Budget,
-    /// Positions, last positions and what the scheme remembers, where the frame began.
+    pub(super) energy_bound: EnergyBound,
+    /// Positions, last positions and what the integrator remembers, where the frame began.
     pub(super) frame_start: Vec<Points>,
 }
 
@@ -52,111 +49,99 @@ impl State {
         let mut last = Points::zeros(grid.len())?;
         last.copy_from(&x);
         let springs = Springs::new(cloth, grid, &x)?;
-        let constants = Constants::new(cloth, sim);
-        let same_box = plan.self_collision == Mode::SameBox;
-        let neighbors = plan.self_collision == Mode::Neighbors;
+        let params = Params::new(cloth, sim);
         let limit = |limit| StretchLimit::new(limit, sim.stretch_passes, &springs);
-        let scheme = Scheme::new(cloth, sim, &springs)?;
+        let colliders = Colliders::new(scene, &x)?;
+        let integrator = integrator::create(cloth, sim, &springs)?;
         let mut state = Self {
-            constants,
+            params,
             grid,
             pins: Pins::new(cloth, grid)?,
             last,
-            self_collision: when(same_box, || SelfCollision::new(cloth, sim, grid, &x))?,
-            neighbors: when(neighbors, || Neighbors::new(cloth, sim, &x))?,
-            objects: (plan.planes || plan.spheres).then(|| Objects::new(scene)),
-            outside: when(plan.kept_outside, || Outside::new(scene, &x))?,
+            self_collision: SelfCollision::new(plan.self_collision, cloth, sim, grid, &x)?,
             stretch_limit: plan.stretch_limit.map(limit).transpose()?,
-            recorder: None,
-            budget: Budget::default(),
-            frame_start: vec![Points::zeros(grid.len())?; 2 + scheme.memory().len()],
-            allowance: Allowance::new(scene, cloth, &springs, &constants),
-            scheme,
+            work: Counters::default(),
+            energy_bound: EnergyBound::default(),
+            frame_start: vec![Points::zeros(grid.len())?; 2 + integrator.memory().len()],
+            allowance: Allowance::new(scene, cloth, &springs, &colliders, &params),
+            colliders,
+            integrator,
             springs,
             x,
         };
         if sim.start == Start::HalfStep {
             state.start_half_step()?;
         }
-        state.set_budget();
+        state.set_energy_bound();
         Ok(Some(state))
     }
 
     /// Puts the last positions where points at rest would have been one step ago under the forces at
     /// the start: `last = x + f dt² / (2 m)`.
     fn start_half_step(&mut self) -> Result<()> {
-        let Self { constants, pins, springs, x, last, .. } = self;
+        let Self { params, pins, springs, x, last, .. } = self;
         let mut forces = Forces::new(springs)?;
-        forces.compute(x, springs, constants.weight.into(), &mut Counters::default());
-        let half = 0.5 * constants.dt * constants.dt / constants.mass;
+        forces.compute(x, springs, params.weight.into(), &mut Counters::default());
+        let half = 0.5 * params.dt * params.dt / params.mass;
         for p in pins.free.iter().cloned().flatten() {
             last.set(p, x.get(p) + forces.sum().get(p) * half);
         }
         Ok(())
     }
 
-    /// One step of the method. The phases after the integrator's change positions and never `last`.
-    pub(super) fn step(&mut self, counters: &mut Counters, stopwatch: &mut Stopwatch) {
-        stopwatch.start();
-        if let Some(recorder) = &mut self.recorder {
-            recorder.begin(&self.x, &self.last, &self.springs, &self.constants);
-        }
+    /// Takes the state as the start that the energy is held against.
+    pub(super) fn set_energy_bound(&mut self) {
+        self.energy_bound =
+            self.allowance.energy_bound(&self.x, self.energy(), &self.colliders, &self.params);
+    }
 
-        // 1. and 2. The integrator: under the forces every free point moves on.
-        self.advance(counters, stopwatch);
-        let Self { constants, pins, springs, x, last, scheme, recorder, .. } = self;
-        if let Some(recorder) = recorder {
-            let split = |p, before, moved| scheme.split(p, before, moved, constants);
-            recorder.advanced(x, last, springs, pins, constants, split);
-        }
-        let mut book = |x: &Points, last: &Points, entry: fn(&mut Ledger) -> &mut f64| {
-            if let Some(recorder) = recorder {
-                recorder.corrected(x, last, springs, constants, entry);
-            }
-        };
+    /// The energies.
+    pub(super) fn energy(&self) -> Energy {
+        Energy::new(&self.x, &self.last, &self.springs, &self.params)
+    }
 
-        // 3. Self-collision: close points of one box move apart.
-        if let Some(self_collision) = &mut self.self_collision {
-            self_collision.apply(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.self_collision);
-            book(x, last, |ledger| &mut ledger.self_collision);
-        }
-        if let Some(neighbors) = &mut self.neighbors {
-            neighbors.apply(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.self_collision);
-            book(x, last, |ledger| &mut ledger.self_collision);
-        }
-
-        // 4. Objects: points that went through a plane or into a sphere are put back.
-        if let Some(objects) = &self.objects {
-            objects.collide_planes(x, last, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            objects.collide_spheres(x, last, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
-        }
-
-        // 5. Stretch limit: springs that are too long are shortened.
-        if let Some(stretch_limit) = &mut self.stretch_limit {
-            stretch_limit.apply(x, springs, pins, counters);
-            stopwatch.lap(|timings| &mut timings.stretch_limit);
-            book(x, last, |ledger| &mut ledger.stretch_limit);
-        }
-
-        // Where the scene asks for it: points that the phases left inside an object leave it.
-        if let Some(outside) = &self.outside {
-            outside.leave_planes(x, pins, counters);
-            book(x, last, |ledger| &mut ledger.planes);
-            outside.leave_spheres(x, pins, counters);
-            stopwatch.lap(|timings| &mut timings.objects);
-            book(x, last, |ledger| &mut ledger.spheres);
+    /// Whether a step has the phase.
+    pub(super) fn has(&self, phase: Phase) -> bool {
+        match phase {
+            Phase::Forces => self.integrator.has_force_phase(),
+            Phase::Integration => true,
+            Phase::SelfCollision => self.self_collision.is_some(),
+            Phase::Collision(_) => !self.colliders.is_empty(),
+            Phase::StretchLimit => self.stretch_limit.is_some(),
+            Phase::Depenetration(_) => self.colliders.keep_outside(),
         }
     }
-}
 
-/// What `make` makes, when the plan asks for it.
-fn when<T>(asked_for: bool, make: impl FnOnce() -> Result<T>) -> Result<Option<T>> {
-    asked_for.then(make).transpose()
+    pub(super) fn compute_forces(&mut self) {
+        let Self { springs, pins, params, x, integrator, work, .. } = self;
+        integrator.compute_forces(x, Model { springs, pins, params }, work);
+    }
+
+    pub(super) fn integrate(&mut self) {
+        let Self { springs, pins, params, x, last, integrator, work, .. } = self;
+        integrator.advance(x, last, Model { springs, pins, params }, work);
+    }
+
+    pub(super) fn collide_with_itself(&mut self) {
+        if let Some(self_collision) = &mut self.self_collision {
+            self_collision.apply(&mut self.x, &self.pins, &mut self.work);
+        }
+    }
+
+    pub(super) fn collide(&mut self, kind: ColliderKind) {
+        let Self { colliders, x, last, pins, work, .. } = self;
+        colliders.resolve(kind, x, last, pins, work);
+    }
+
+    pub(super) fn limit_stretch(&mut self) {
+        if let Some(limit) = &mut self.stretch_limit {
+            limit.apply(&mut self.x, &self.springs, &self.pins, &mut self.work);
+        }
+    }
+
+    pub(super) fn depenetrate(&mut self, kind: ColliderKind) {
+        self.colliders.depenetrate(kind, &mut self.x, &self.pins, &mut self.work);
+    }
 }
 
 /// Checks that `x` has `points` positions.

@@ -11,17 +11,17 @@ impl Simulation {
         families.filter(|family| family.kind == kind).for_each(|family| family.stiffness = k);
     }
 
-    /// Puts points that met a plane so many metres above it, on the side from which they came.
+    /// Puts points that hit a plane so many metres above it, on the side from which they came.
     pub fn set_plane_offset(&mut self, offset: f64) {
-        self.cloth.iter_mut().flat_map(|cloth| &mut cloth.objects).for_each(|o| o.plane_offset = offset);
+        self.cloth.iter_mut().for_each(|cloth| cloth.colliders.set_plane_offset(offset));
     }
 
-    /// Makes boxes of self-collision one if `hash` of their three numbers is the same.
-    pub fn set_box_hash(&mut self, hash: fn([i64; 3]) -> i64) {
+    /// Makes cells of self-collision one if `hash` of their three numbers is the same.
+    pub fn set_cell_hash(&mut self, hash: fn([i64; 3]) -> i64) {
         if let Some(cloth) = &mut self.cloth
-            && let Some(collision) = &mut cloth.self_collision
+            && let Some(self_collision) = &mut cloth.self_collision
         {
-            collision.boxes.tell_apart_by(hash, &cloth.x);
+            self_collision.set_cell_hash(hash, &cloth.x);
         }
     }
 }

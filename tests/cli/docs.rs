@@ -44,7 +44,7 @@ fn run(command: &str, change: &str, fps: &str) -> Value {
 fn printed(line: &str) -> Value {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("drape"));
     let words = line.split(' ').map(|word| word.trim_matches('\''));
-    let output = command.args(words.skip(1)).output().unwrap();
+    let output = command.current_dir(crate::repository::path("")).args(words.skip(1)).output().unwrap();
     assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }

@@ -1,7 +1,7 @@
 //! Pictures stay what they are: every pixel, for every number of threads.
 //!
-//! A golden is replaced by `DRAPE_BLESS="reason" cargo test --release --test golden`, which fails
-//! after it has written; the next run compares. What differs is shown in `target/golden/`.
+//! A golden is replaced by `DRAPE_BLESS="reason" cargo test --release --test cli golden`, which
+//! fails after it has written; the next run compares. What differs is shown in `target/golden/`.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -17,8 +17,8 @@ mod files;
 mod gallery;
 mod golden;
 mod goldens;
-#[path = "../support/naive/mod.rs"]
-mod naive;
+#[path = "../support/mistakes.rs"]
+mod mistakes;
 mod pages;
 mod positions;
 mod readme;
@@ -28,5 +28,7 @@ mod results;
 mod scratch;
 mod signals;
 mod simulating;
+#[path = "../../examples/textbook_cloth.rs"]
+mod textbook_cloth;
 mod texts;
 mod threads;

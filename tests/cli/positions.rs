@@ -1,12 +1,12 @@
 //! `compare-positions` finds where another program parts from the method, and names its mistake.
-//! The other program is a second implementation of the method, which can make the mistakes.
+//! The other program is the textbook cloth, which can make the mistakes.
 
 use std::fs;
 
 use drape::scene::{Overrides, Scene, load_text};
 use serde_json::Value;
 
-use crate::naive::{Cloth, Mistakes};
+use crate::mistakes::{self, Mistakes};
 use crate::scratch::Scratch;
 
 /// A hanging cloth.
@@ -22,7 +22,7 @@ fn scene(text: &str) -> Scene {
 /// The positions of frames 0 up to, without, `frames`, by a program that makes `mistakes`.
 fn positions(text: &str, mistakes: Mistakes, frames: usize) -> Vec<f64> {
     let scene = scene(text);
-    let mut cloth = Cloth::new(&scene, mistakes);
+    let mut cloth = mistakes::cloth(&scene, mistakes);
     let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
     for _ in 1..frames {
         (0..scene.sim.steps_per_frame).for_each(|_| cloth.step());
@@ -109,12 +109,12 @@ fn a_missing_offset_of_the_plane_is_named() {
 }
 
 #[test]
-fn boxes_that_are_taken_for_one_are_named() {
+fn cells_that_are_taken_for_one_are_named() {
     let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1").replace("0.0095", "0.06");
     let none = Mistakes::default();
     for (mistakes, name) in [
-        (Mistakes { cut_boxes: true, ..none }, "boxes by coordinates cut towards zero"),
-        (Mistakes { float_hash: true, ..none }, "boxes told apart by x² + y² + z³"),
+        (Mistakes { cut_boxes: true, ..none }, "cells by coordinates cut towards zero"),
+        (Mistakes { float_hash: true, ..none }, "cells told apart by x² + y² + z³"),
     ] {
         let verdict = verdict(&text, mistakes, 10);
         assert!(verdict.starts_with(&format!("this behaves like the mistake: {name}")), "{verdict}");
@@ -201,8 +201,9 @@ fn a_vertical_cloth_starts_where_the_file_says() {
     let text = HANGING.replace("\"orientation\": 0", "\"orientation\": 1");
     let run = |mistakes| {
         let scene = scene(&text);
-        let mut cloth = Cloth::new(&scene, mistakes);
-        cloth.start_at(cloth.x.iter().map(|&[x, y, z]| [x, y, -0.5 * z]).collect());
+        let mut cloth = mistakes::cloth(&scene, mistakes);
+        let start = cloth.x.iter().map(|&[x, y, z]| [x, y, -0.5 * z]).collect();
+        mistakes::start_at(&mut cloth, start);
         let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
         for _ in 1..6 {
             (0..scene.sim.steps_per_frame).for_each(|_| cloth.step());

@@ -1,4 +1,4 @@
-//! Every command of the README does what it says, run in an empty folder.
+//! Every command of the README and of the pages in `docs/` does what it says, run in an empty folder.
 
 use std::{
     fs,
@@ -13,16 +13,31 @@ fn repository() -> PathBuf {
     crate::repository::path("")
 }
 
-fn readme() -> String {
-    fs::read_to_string(repository().join("README.md")).expect("a README")
+/// The pages whose commands are run here, each with the number of its `sh` lines: a page that loses one fails.
+const PAGES: [(&str, usize); 3] = [("README.md", 14), ("docs/commands.md", 16), ("docs/gallery.md", 21)];
+
+/// Pages with commands that other tests run or that only print times: `docs.rs`, `findings.rs` and `restless.rs` hold
+/// their figures.
+const ELSEWHERE: [&str; 4] = ["docs/findings.md", "docs/restless.md", "docs/speed.md", "docs/stability.md"];
+
+fn text(page: &str) -> String {
+    fs::read_to_string(repository().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"))
 }
 
-/// The lines of all fenced blocks of a language.
-fn lines_of(language: &str) -> Vec<String> {
-    let (text, fence) = (readme(), format!("```{language}\n"));
+/// The lines of all fenced blocks of a language in a page.
+fn lines_of(page: &str, language: &str) -> Vec<String> {
+    let (text, fence) = (text(page), format!("```{language}\n"));
     let blocks = text.split(&fence).skip(1);
     let lines = blocks.flat_map(|block| block.split("```").next().unwrap_or_default().lines());
     lines.map(str::to_owned).collect()
+}
+
+/// Every page for users: the README and `docs/*.md`.
+fn pages() -> Vec<String> {
+    let entries =
+        fs::read_dir(repository().join("docs")).expect("the docs").map(|entry| entry.expect("an entry"));
+    let names = entries.map(|entry| format!("docs/{}", entry.file_name().to_string_lossy()));
+    names.filter(|name| name.ends_with(".md")).chain(["README.md".to_owned()]).collect()
 }
 
 /// A folder with `drape` on the path and the repository's scenes in it.
@@ -70,17 +85,30 @@ fn ignored(name: &str) -> bool {
 
 #[test]
 fn every_command_runs_and_leaves_what_it_names() {
-    let lines = lines_of("sh");
-    assert!(lines.len() >= 20, "found {} commands", lines.len());
-    all_run(&lines);
+    let lines = PAGES.map(|(page, count)| {
+        let lines = lines_of(page, "sh");
+        assert_eq!(lines.len(), count, "commands of {page}");
+        lines
+    });
+    all_run(&lines.concat());
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn every_long_command_runs() {
-    let lines = lines_of("bash");
+    let lines = lines_of("README.md", "bash");
     assert_eq!(lines.len(), 3);
     all_run(&lines);
+}
+
+#[test]
+fn no_page_has_commands_that_nobody_runs() {
+    let run = |page: &String| {
+        let here = PAGES.iter().any(|(name, _)| name == page);
+        let (short, long) = (lines_of(page, "sh").is_empty(), lines_of(page, "bash").is_empty());
+        (short || here || ELSEWHERE.contains(&page.as_str())) && (long || page == "README.md")
+    };
+    assert_eq!(pages().into_iter().filter(|page| !run(page)).collect::<Vec<_>>(), Vec::<String>::new());
 }
 
 fn all_run(lines: &[String]) {
@@ -108,7 +136,8 @@ fn all_run(lines: &[String]) {
 
 #[test]
 fn the_loop_over_stiffness_leaves_a_picture_each() {
-    let line = lines_of("sh").into_iter().find(|line| line.starts_with("for ks")).expect("the loop");
+    let line =
+        lines_of("README.md", "sh").into_iter().find(|line| line.starts_with("for ks")).expect("the loop");
     let folder = folder();
     assert!(shell(&line, folder.path()).status.success(), "{line}");
     let pictures =
@@ -124,8 +153,7 @@ fn the_mistake_is_shown_as_the_readme_shows_it() {
     fs::write(folder.path().join("cloth.json"), scene.replace("\"damping\"", "\"dampning\""))
         .expect("a file");
     let said = shell("drape check cloth.json", folder.path()).stdout;
-    let shown = lines_of("text").join("\n");
-    let expected = shown.split("\nscene file").next().expect("the first block");
-    assert!(expected.starts_with("error["), "the README shows a mistake first");
-    assert!(String::from_utf8_lossy(&said).contains(expected), "{}", String::from_utf8_lossy(&said));
+    let expected = lines_of("README.md", "text").join("\n");
+    assert!(expected.starts_with("error["), "the README shows a mistake");
+    assert!(String::from_utf8_lossy(&said).contains(&expected), "{}", String::from_utf8_lossy(&said));
 }

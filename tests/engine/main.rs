@@ -10,9 +10,10 @@ mod cloth;
 mod gl;
 mod integrators;
 mod layers;
-#[path = "../support/naive/mod.rs"]
-mod naive;
+mod msrv;
 mod output;
+mod pages;
+mod promises;
 mod raster;
 mod render;
 #[path = "../support/repository.rs"]
@@ -22,4 +23,6 @@ mod scene;
 mod scenes;
 mod shader;
 mod support;
+#[path = "../../examples/textbook_cloth.rs"]
+mod textbook_cloth;
 mod textures;

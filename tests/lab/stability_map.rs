@@ -47,7 +47,7 @@ fn damping_per_second_does_not_move_the_threshold() {
         let scene = small(&["sim.damping=\"per_second\"", &format!("cloth.damping={damping}")]);
         let tried = threshold::at_rest(&scene, scene.cloth.as_ref().unwrap()).unwrap().unwrap();
         let theory =
-            drape::cloth::stability::Stability::new(scene.cloth.as_ref().unwrap(), &scene.sim).unwrap();
+            drape::diagnostics::stability::Stability::new(scene.cloth.as_ref().unwrap(), &scene.sim).unwrap();
         assert!((tried / (theory.omega_rest / 2.0) - 1.0).abs() < 0.003, "{tried}");
     }
 }
@@ -64,7 +64,7 @@ fn a_cloth_without_stiffness_has_no_threshold() {
 fn a_threshold_in_motion_is_not_above_the_one_at_worst() {
     let scene = small(&["cloth.ks=50"]);
     let cloth = scene.cloth.as_ref().unwrap();
-    let theory = drape::cloth::stability::Stability::new(cloth, &scene.sim).unwrap();
+    let theory = drape::diagnostics::stability::Stability::new(cloth, &scene.sim).unwrap();
     let worst = theory.omega_safe / theory.limit_worst;
     let tried = threshold::in_motion(&scene, cloth, 0.5).unwrap().unwrap();
     assert!((tried / worst - 1.0).abs() < 1e-9, "{tried} instead of {worst}");

@@ -6,12 +6,22 @@
 use std::fs::File;
 use std::path::Path;
 
-use super::{Animation, Changes, Format, Rectangle};
-use crate::session::staged::Staged;
+use super::changes::{Changes, Rectangle};
+use super::format::{Animation, Format, MAX_FPS, Playback};
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
+/// The row of the table.
+pub(crate) const APNG: Format = Format {
+    ending: "apng",
+    note: "an animated PNG, lossless",
+    max_fps: MAX_FPS,
+    check: |_, _| Ok(()),
+    create: |path, playback, pictures| Ok(Box::new(Apng::create(path, playback, pictures)?)),
+};
+
 /// An animated PNG that is being written.
-pub(crate) struct Apng {
+struct Apng {
     staged: Staged,
     writer: ::png::Writer<File>,
     changes: Changes,
@@ -21,11 +31,13 @@ impl Apng {
     /// A file at `path` for exactly `pictures` pictures.
     ///
     /// # Errors
-    /// [`Kind::Io`] when it cannot be written.
-    pub(crate) fn create(path: &Path, format: Format, pictures: u32) -> Result<Self> {
+    /// [`Kind::Io`] when it cannot be written, [`Kind::Usage`] for more pictures than the format can count.
+    fn create(path: &Path, playback: Playback, pictures: u64) -> Result<Self> {
+        let pictures = u32::try_from(pictures)
+            .map_err(|_| Error::new(Kind::Usage, format!("{pictures} pictures are too many for an APNG")))?;
         let staged = Staged::create(path)?;
-        let writer = header(staged.file()?, format, pictures).map_err(|e| failed(&staged, e))?;
-        Ok(Self { staged, writer, changes: Changes::new(format.width) })
+        let writer = header(staged.file()?, playback, pictures).map_err(|e| failed(&staged, e))?;
+        Ok(Self { staged, writer, changes: Changes::new(playback.width) })
     }
 }
 
@@ -42,14 +54,18 @@ impl Animation for Apng {
     }
 }
 
-fn header(file: File, format: Format, pictures: u32) -> Result<::png::Writer<File>, ::png::EncodingError> {
-    let mut encoder = ::png::Encoder::new(file, format.width, format.height);
+fn header(
+    file: File,
+    playback: Playback,
+    pictures: u32,
+) -> Result<::png::Writer<File>, ::png::EncodingError> {
+    let mut encoder = ::png::Encoder::new(file, playback.width, playback.height);
     encoder.set_color(::png::ColorType::Rgb);
     encoder.set_depth(::png::BitDepth::Eight);
     encoder.set_compression(::png::Compression::High);
     encoder.set_filter(::png::Filter::Adaptive);
     encoder.set_animated(pictures, 0)?;
-    encoder.set_frame_delay(1, format.fps)?;
+    encoder.set_frame_delay(1, playback.fps)?;
     encoder.set_blend_op(::png::BlendOp::Source)?;
     encoder.set_dispose_op(::png::DisposeOp::None)?;
     encoder.validate_sequence(true);

@@ -11,18 +11,28 @@ use std::path::Path;
 
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
-use super::{Animation, Changes, Format, Rectangle};
-use crate::session::staged::Staged;
+use super::changes::{Changes, Rectangle};
+use super::format::{Animation, Format, Playback};
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
 /// Most pictures per second: players show delays below two hundredths as ten.
-pub(crate) const MAX_FPS: u16 = 50;
+const MAX_FPS: u16 = 50;
 
 /// Every how many pixels NeuQuant looks at, 1 to 30.
 const SPEED: i32 = 10;
 
+/// The row of the table.
+pub(crate) const GIF: Format = Format {
+    ending: "gif",
+    note: "at most 256 colours in a picture and 50 pictures per second",
+    max_fps: MAX_FPS,
+    check: |_, _| Ok(()),
+    create: |path, playback, _| Ok(Box::new(Gif::create(path, playback)?)),
+};
+
 /// A GIF that is being written.
-pub(crate) struct Gif {
+struct Gif {
     staged: Staged,
     encoder: Encoder<BufWriter<File>>,
     changes: Changes,
@@ -36,11 +46,12 @@ impl Gif {
     /// # Errors
     /// [`Kind::Io`] when it cannot be written; [`Kind::Usage`] when a side has more than 65535
     /// pixels or the rate is above [`MAX_FPS`].
-    pub(crate) fn create(path: &Path, format: Format) -> Result<Self> {
-        let Format { width, height, fps } = format;
+    fn create(path: &Path, playback: Playback) -> Result<Self> {
+        let Playback { width, height, fps } = playback;
         let (Ok(w), Ok(h), 1..=MAX_FPS) = (u16::try_from(width), u16::try_from(height), fps) else {
-            let message = format!("a GIF of {width} x {height} pixels and {fps} pictures a second");
-            return Err(Error::new(Kind::Usage, message).with_help(format!("at most {MAX_FPS} a second")));
+            let message = format!("a GIF cannot hold {width} x {height} pixels at {fps} pictures per second");
+            let help = format!("at most {0} x {0} pixels at {MAX_FPS} pictures per second", u16::MAX);
+            return Err(Error::new(Kind::Usage, message).with_help(help));
         };
         let staged = Staged::create(path)?;
         let encoder = header(BufWriter::new(staged.file()?), w, h).map_err(|e| failed(&staged, e))?;

@@ -1,124 +1,15 @@
-//! Pictures that are shown one after the other, and what changes between two of them.
+//! Animations: the pictures of a scene in motion, in one file or in a PNG file each.
+//!
+//! A format of one file is a file of this folder and a row of [`target::FORMATS`].
 
+pub(crate) mod schedule;
+pub(crate) mod format;
+pub(crate) mod changes;
 pub(crate) mod apng;
-pub(crate) mod film;
 pub(crate) mod gif;
 pub(crate) mod mp4;
+pub(crate) mod pattern;
+pub(crate) mod fingerprint;
 pub(crate) mod sequence;
 pub(crate) mod target;
-
-use drape::error::Result;
-
-/// Where the pictures of an animation go.
-pub(crate) trait Animation: Send {
-    /// Takes the next picture: three bytes a pixel, top row first.
-    ///
-    /// # Errors
-    /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be written.
-    fn add(&mut self, rgb: &[u8]) -> Result<()>;
-
-    /// Completes the file. Without this call there is none.
-    ///
-    /// # Errors
-    /// As [`Animation::add`].
-    fn finish(self: Box<Self>) -> Result<()>;
-}
-
-/// How an animation is played.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Format {
-    /// Width in pixels (>= 1).
-    pub(crate) width: u32,
-    /// Height in pixels (>= 1).
-    pub(crate) height: u32,
-    /// Pictures per second (>= 1).
-    pub(crate) fps: u16,
-}
-
-/// A rectangle of pixels, at least one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Rectangle {
-    pub(crate) left: usize,
-    pub(crate) top: usize,
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-}
-
-/// The part of each picture that differs from the one before.
-#[derive(Debug)]
-pub(crate) struct Changes {
-    row: usize,
-    before: Vec<u8>,
-}
-
-impl Changes {
-    /// For pictures of `width` pixels a row.
-    pub(crate) fn new(width: u32) -> Self {
-        Self { row: 3 * width as usize, before: Vec::new() }
-    }
-
-    /// The smallest rectangle outside of which `rgb` is as the picture before, and its pixels: the
-    /// whole picture at first, one pixel if nothing changes.
-    pub(crate) fn next(&mut self, rgb: &[u8]) -> (Rectangle, Vec<u8>) {
-        let rectangle = if self.before.is_empty() { self.whole(rgb) } else { self.changed(rgb) };
-        self.before.clear();
-        self.before.extend_from_slice(rgb);
-        let Rectangle { left, top, width, height } = rectangle;
-        let rows = rgb.chunks_exact(self.row).skip(top).take(height);
-        (rectangle, rows.flat_map(|row| &row[3 * left..3 * (left + width)]).copied().collect())
-    }
-
-    fn whole(&self, rgb: &[u8]) -> Rectangle {
-        Rectangle { left: 0, top: 0, width: self.row / 3, height: rgb.len() / self.row }
-    }
-
-    fn changed(&self, rgb: &[u8]) -> Rectangle {
-        let rows = || self.before.chunks_exact(self.row).zip(rgb.chunks_exact(self.row)).enumerate();
-        let differs = |before: &[u8], now: &[u8]| before.iter().zip(now).position(|(a, b)| a != b);
-        let differs_last = |before: &[u8], now: &[u8]| before.iter().zip(now).rposition(|(a, b)| a != b);
-        let mut changed = rows().filter(|(_, (before, now))| before != now).map(|(y, _)| y);
-        let top = changed.next().unwrap_or(0);
-        let bottom = changed.next_back().unwrap_or(top);
-        let left = rows().filter_map(|(_, (before, now))| differs(before, now)).min().unwrap_or(0) / 3;
-        let right = rows().filter_map(|(_, (before, now))| differs_last(before, now)).max().unwrap_or(0) / 3;
-        Rectangle { left, top, width: right - left + 1, height: bottom - top + 1 }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn pasting_the_changes_gives_every_picture_and_no_smaller_rectangle_would(
-            (width, height) in (1_usize..6, 1_usize..6), seed in any::<u64>(),
-        ) {
-            let mut changes = Changes::new(u32::try_from(width).unwrap());
-            let mut canvas = vec![0; 3 * width * height];
-            for k in 0..6 {
-                // Few pixels differ from black, and of those one channel.
-                let random = |i: usize| drape::math::splitmix64(seed ^ (i as u64 + 1000 * k));
-                let picture: Vec<u8> = (0..canvas.len()).map(|i| u8::from(random(i) % 12 == 0)).collect();
-                let old = canvas.clone();
-                let (rectangle, pixels) = changes.next(&picture);
-                let Rectangle { left, top, width: w, height: h } = rectangle;
-                for (y, row) in pixels.chunks_exact(3 * w).enumerate() {
-                    let at = 3 * ((top + y) * width + left);
-                    canvas[at..at + row.len()].copy_from_slice(row);
-                }
-                prop_assert_eq!(pixels.len(), 3 * w * h);
-                prop_assert_eq!(&canvas, &picture);
-                let differs = |x: usize, y: usize| {
-                    let at = 3 * (y * width + x);
-                    old[at..at + 3] != picture[at..at + 3]
-                };
-                if k > 0 && old != picture {
-                    prop_assert!((top..top + h).any(|y| differs(left, y)) && (top..top + h).any(|y| differs(left + w - 1, y)));
-                    prop_assert!((left..left + w).any(|x| differs(x, top)) && (left..left + w).any(|x| differs(x, top + h - 1)));
-                }
-            }
-        }
-    }
-}
+pub(crate) mod pipeline;

@@ -6,28 +6,37 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 
-use super::{Animation, Format};
-use crate::session::staged::Staged;
+use super::format::{Animation, Format, MAX_FPS, Playback};
+use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
-/// What the film is encoded with, wherever the pictures come from. Players want even sides and
-/// chroma at half the resolution.
+/// The row of the table.
+pub(crate) const MP4: Format = Format {
+    ending: "mp4",
+    note: "H.264, encoded by the program ffmpeg, which must be installed",
+    max_fps: MAX_FPS,
+    check: |path, playback| find_ffmpeg(path, playback.fps),
+    create: |path, playback, _| Ok(Box::new(Mp4::create(path, playback)?)),
+};
+
+/// The options of the encoder, wherever the pictures come from. Most players need even sides and chroma at
+/// half the resolution.
 const ENCODING: [&str; 6] =
     ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-pix_fmt", "yuv420p"];
 
-/// Most bytes of what ffmpeg says that an error repeats.
-const MOST_SAID: u64 = 2000;
+/// Most bytes of the messages of ffmpeg that an error quotes.
+const MOST_QUOTED: u64 = 2000;
 
-/// A film that ffmpeg is encoding.
-pub(crate) struct Mp4 {
-    // Dropped first, so that nothing is written to the file any more when it goes.
+/// A video that ffmpeg is encoding.
+struct Mp4 {
+    // Dropped first, so that nothing writes to the file when it is removed.
     ffmpeg: Running,
     staged: Staged,
     pictures: Option<ChildStdin>,
-    said: File,
+    messages: File,
 }
 
-/// A program that is ended when nobody waits for it any more.
+/// A program that is ended when this is dropped.
 struct Running(Child);
 
 impl Drop for Running {
@@ -38,29 +47,29 @@ impl Drop for Running {
     }
 }
 
-/// Finds out before long work whether ffmpeg can be started.
+/// Checks, before long work, that ffmpeg can be started.
 ///
 /// # Errors
-/// [`Kind::Io`] with the line that makes `film` of the pictures `film`_0000.png and so on.
-pub(crate) fn find_ffmpeg(film: &Path, fps: u16) -> Result<()> {
+/// [`Kind::Io`] with the command that encodes `video` from numbered pictures.
+fn find_ffmpeg(video: &Path, fps: u16) -> Result<()> {
     let quiet = |command: &mut Command| {
         command.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status()
     };
     match quiet(&mut Command::new("ffmpeg")) {
         Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(missing(film, fps, &format!("ffmpeg does not work ({status})"))),
-        Err(e) => Err(missing(film, fps, &format!("ffmpeg cannot be started: {e}"))),
+        Ok(status) => Err(missing(video, fps, &format!("ffmpeg does not work ({status})"))),
+        Err(e) => Err(missing(video, fps, &format!("ffmpeg cannot be started: {e}"))),
     }
 }
 
-fn missing(film: &Path, fps: u16, cause: &str) -> Error {
-    let folder = film.with_extension("");
+fn missing(video: &Path, fps: u16, cause: &str) -> Error {
+    let folder = video.with_extension("");
     let pictures = folder.join("%04d.png");
     let help = format!(
-        "animate to {0} instead, then run where ffmpeg is:\nffmpeg -framerate {fps} -i {0} {1} {2}",
+        "animate to {0} instead, then run this where ffmpeg is installed:\nffmpeg -framerate {fps} -i {0} {1} {2}",
         quoted(&pictures.to_string_lossy()),
         ENCODING.map(quoted).join(" "),
-        quoted(&film.to_string_lossy()),
+        quoted(&video.to_string_lossy()),
     );
     Error::new(Kind::Io, cause).with_help(help)
 }
@@ -72,36 +81,40 @@ fn quoted(word: &str) -> String {
 }
 
 impl Mp4 {
-    /// A film at `path`.
+    /// A video at `path`.
     ///
     /// # Errors
     /// [`Kind::Io`] when ffmpeg cannot be started or the file not be written.
-    pub(crate) fn create(path: &Path, format: Format) -> Result<Self> {
+    fn create(path: &Path, playback: Playback) -> Result<Self> {
         let staged = Staged::create(path)?;
-        let said = tempfile::tempfile().map_err(|e| staged.failed(&e))?;
-        let stderr = said.try_clone().map_err(|e| staged.failed(&e))?;
+        let messages = tempfile::tempfile().map_err(|e| staged.failed(&e))?;
+        let stderr = messages.try_clone().map_err(|e| staged.failed(&e))?;
         let mut ffmpeg = Command::new("ffmpeg")
-            .args(arguments(staged.temporary(), format))
+            .args(arguments(staged.temporary(), playback))
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(stderr)
             .spawn()
-            .map_err(|e| missing(path, format.fps, &format!("ffmpeg cannot be started: {e}")))?;
+            .map_err(|e| missing(path, playback.fps, &format!("ffmpeg cannot be started: {e}")))?;
         let pictures = ffmpeg.stdin.take();
-        Ok(Self { ffmpeg: Running(ffmpeg), staged, pictures, said })
+        Ok(Self { ffmpeg: Running(ffmpeg), staged, pictures, messages })
     }
 
-    /// What went wrong, in the words of ffmpeg once it has ended.
+    /// The error of a failed run, with what ffmpeg wrote to standard error.
     fn failed(&mut self, cause: &str) -> Error {
-        // Nothing more comes, so it ends.
+        // At the end of its input ffmpeg exits.
         self.pictures = None;
         let status = self.ffmpeg.0.wait().map_or_else(|e| e.to_string(), |status| status.to_string());
-        let mut said = Vec::new();
-        let read = self.said.seek(SeekFrom::Start(0));
-        let read = read.and_then(|_| (&self.said).take(MOST_SAID).read_to_end(&mut said));
-        let said = String::from_utf8_lossy(&said).trim().to_owned();
-        let error = Error::new(Kind::Io, format!("ffmpeg made no film: {cause} ({status})"));
-        if read.is_ok() && !said.is_empty() { error.with_help(format!("it says: {said}")) } else { error }
+        let mut messages = Vec::new();
+        let read = self.messages.seek(SeekFrom::Start(0));
+        let read = read.and_then(|_| (&self.messages).take(MOST_QUOTED).read_to_end(&mut messages));
+        let messages = String::from_utf8_lossy(&messages).trim().to_owned();
+        let error = Error::new(Kind::Io, format!("ffmpeg wrote no video: {cause} ({status})"));
+        if read.is_ok() && !messages.is_empty() {
+            error.with_help(format!("ffmpeg reports: {messages}"))
+        } else {
+            error
+        }
     }
 }
 
@@ -115,18 +128,18 @@ impl Animation for Mp4 {
         self.pictures = None;
         match self.ffmpeg.0.wait() {
             Ok(status) if status.success() => {}
-            Ok(_) => return Err(self.failed("it failed")),
+            Ok(_) => return Err(self.failed("it ended with an error")),
             Err(e) => return Err(self.failed(&e.to_string())),
         }
         self.staged.finish()
     }
 }
 
-fn arguments(film: &Path, format: Format) -> Vec<OsString> {
-    let Format { width, height, fps } = format;
+fn arguments(video: &Path, playback: Playback) -> Vec<OsString> {
+    let Playback { width, height, fps } = playback;
     let (size, fps) = (format!("{width}x{height}"), fps.to_string());
     let input = ["-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", &size, "-framerate", &fps];
     let first = ["-y", "-loglevel", "error"].into_iter().chain(input).chain(["-i", "-"]);
     let all = first.chain(ENCODING).chain(["-f", "mp4"]).map(OsString::from);
-    all.chain([film.as_os_str().to_owned()]).collect()
+    all.chain([video.as_os_str().to_owned()]).collect()
 }

@@ -1,47 +1,63 @@
-//! What `animate` writes to, and how it knows its own pictures again.
+//! Where the pictures of an animation go: the format is found by the ending of the file name.
 
 use std::path::{Path, PathBuf};
 
-use crate::animation::apng::Apng;
-use crate::animation::gif::Gif;
-use crate::animation::mp4::{Mp4, find_ffmpeg};
-use crate::animation::sequence::Pattern;
-use crate::animation::{Animation, Format};
+use super::apng::APNG;
+use super::format::{Animation, Format, MAX_FPS, Playback};
+use super::gif::GIF;
+use super::mp4::MP4;
+use super::pattern::Pattern;
 use drape::error::{Error, Kind, Result};
-use drape::math::StateHash;
-use drape::render::{Options, Renderer};
-use drape::scene::Scene;
 
-/// A file or a sequence of files.
+/// The formats of one file.
+pub(crate) const FORMATS: [&Format; 3] = [&APNG, &GIF, &MP4];
+
+/// One file, or a file for each picture.
 pub(crate) enum Target {
     /// A PNG for each picture.
     Sequence(Pattern),
-    /// An animated PNG.
-    Apng(PathBuf),
-    /// A GIF.
-    Gif(PathBuf),
-    /// A film by ffmpeg.
-    Mp4(PathBuf),
+    /// A file of a format of the table.
+    File(PathBuf, &'static Format),
+}
+
+/// The help for the path of a target.
+pub(crate) fn help() -> String {
+    let formats: Vec<String> =
+        FORMATS.iter().map(|Format { ending, note, .. }| format!(".{ending} ({note})")).collect();
+    format!(
+        "The file to write; its ending is the format: {}; or .png with a place for the number, such as \
+         frames/%04d.png, for a PNG file a picture. A picture that is already there from the same scene and options \
+         is kept",
+        formats.join(", ")
+    )
+}
+
+/// The endings of the formats that pass, such as `.apng, .gif or .mp4`.
+fn endings(passes: impl Fn(&Format) -> bool) -> String {
+    let found: Vec<String> =
+        FORMATS.iter().filter(|format| passes(format)).map(|format| format!(".{}", format.ending)).collect();
+    match found.split_last() {
+        Some((last, [first @ .., before])) => [first, &[format!("{before} or {last}")]].concat().join(", "),
+        _ => found.concat(),
+    }
 }
 
 impl Target {
     /// What a path stands for.
     ///
     /// # Errors
-    /// [`Kind::Usage`] when it is none of these.
+    /// [`Kind::Usage`] when no format has its ending, or when a PNG has no place for the number.
     pub(crate) fn parse(path: &Path) -> Result<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let target = match ending.as_deref() {
-            Some("png") => Pattern::parse(path).map(Self::Sequence),
-            Some("apng") => Some(Self::Apng(path.into())),
-            Some("gif") => Some(Self::Gif(path.into())),
-            Some("mp4") => Some(Self::Mp4(path.into())),
-            _ => None,
-        };
-        target.ok_or_else(|| {
-            Error::new(Kind::Usage, format!("`{}` is no animation", path.display())).with_help(
-                "name an .apng, .gif or .mp4, or PNG files with a place for the number: frames/%04d.png",
-            )
+        let format = FORMATS.into_iter().find(|format| Some(format.ending) == ending.as_deref());
+        let file = format.map(|format| Self::File(path.into(), format));
+        let sequence =
+            || Some(Self::Sequence(Pattern::parse(path).filter(|_| ending.as_deref() == Some("png"))?));
+        file.or_else(sequence).ok_or_else(|| {
+            let message = format!("`{}` does not name an animation", path.display());
+            let help =
+                format!("it must end in {}, or be numbered PNG files: frames/%04d.png", endings(|_| true));
+            Error::new(Kind::Usage, message).with_help(help)
         })
     }
 
@@ -49,64 +65,61 @@ impl Target {
     pub(crate) fn pattern(&self) -> Option<&Pattern> {
         match self {
             Self::Sequence(pattern) => Some(pattern),
-            _ => None,
+            Self::File(..) => None,
         }
     }
 
-    /// Finds out before long work whether there is a program to encode with.
-    pub(crate) fn check(&self, format: Format) -> Result<()> {
+    /// The pictures per second: those asked for, or every simulated frame as far as the format can.
+    ///
+    /// # Errors
+    /// [`Kind::Usage`] when the format cannot show so many.
+    pub(crate) fn fps(&self, asked: Option<u16>, simulated: f64) -> Result<u16> {
+        let (ending, most) = match self {
+            Self::Sequence(_) => ("png", MAX_FPS),
+            Self::File(_, format) => (format.ending, format.max_fps),
+        };
+        let every = simulated.round().clamp(1.0, f64::from(most));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1000")]
+        let fps = asked.unwrap_or(every as u16);
+        if fps <= most {
+            return Ok(fps);
+        }
+        let message = format!("--fps {fps}: a .{ending} file shows at most {most} pictures per second");
+        let help = format!("lower --fps to {most}, or write {}", endings(|format| format.max_fps >= fps));
+        Err(Error::new(Kind::Usage, message).with_help(help))
+    }
+
+    /// Checks, before long work, that the file can be encoded.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when a program that it takes is missing.
+    pub(crate) fn check(&self, playback: Playback) -> Result<()> {
         match self {
-            Self::Mp4(path) => find_ffmpeg(path, format.fps),
-            _ => Ok(()),
+            Self::File(path, format) => (format.check)(path, playback),
+            Self::Sequence(_) => Ok(()),
         }
     }
 
     /// The file for `count` pictures; none if each has its own.
-    pub(crate) fn open(&self, format: Format, count: u64) -> Result<Option<Box<dyn Animation>>> {
-        let pictures = || {
-            u32::try_from(count)
-                .map_err(|_| Error::new(Kind::Usage, format!("{count} pictures are too many")))
-        };
-        Ok(match self {
-            Self::Sequence(_) => None,
-            Self::Apng(path) => Some(Box::new(Apng::create(path, format, pictures()?)?)),
-            Self::Gif(path) => Some(Box::new(Gif::create(path, format)?)),
-            Self::Mp4(path) => Some(Box::new(Mp4::create(path, format)?)),
-        })
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when it cannot be written; [`Kind::Usage`] when the format cannot hold the pictures.
+    pub(crate) fn open(&self, playback: Playback, count: u64) -> Result<Option<Box<dyn Animation>>> {
+        match self {
+            Self::File(path, format) => (format.create)(path, playback, count).map(Some),
+            Self::Sequence(_) => Ok(None),
+        }
     }
 
-    /// The error of a signal, which says what stays.
+    /// The error of a run that ended early; that of a signal says what is kept.
     pub(crate) fn stopped(&self, error: Error) -> Error {
         match (self, error.kind) {
             (Self::Sequence(_), Kind::Signal(number)) => {
-                Error::new(error.kind, format!("stopped by signal {number}; the pictures so far are whole"))
-                    .with_help("the same command goes on from there")
+                Error::new(error.kind, format!("stopped by signal {number}; the finished pictures are kept"))
+                    .with_help("run the same command again to draw the rest")
             }
             _ => error,
         }
-    }
-}
-
-/// What pictures say of themselves: a hash of all that decides how a simulated frame looks (the
-/// scene with every default and change, the options, the textures, the version of this program),
-/// and the frame.
-pub(crate) struct Marks(u64);
-
-impl Marks {
-    /// The marks of pictures of `scene`.
-    pub(crate) fn new(scene: &Scene, renderer: &Renderer, options: &Options) -> Self {
-        let mut looks = scene.clone();
-        // How many frames there are says nothing of how one looks.
-        looks.render.time = 0.0;
-        let mut hash = StateHash::default();
-        hash.write(format!("{} {looks:?} {options:?}", env!("CARGO_PKG_VERSION")).as_bytes());
-        renderer.hash_textures(&mut hash);
-        Self(hash.finish())
-    }
-
-    /// What the picture of `frame` says.
-    pub(crate) fn mark(&self, frame: u64) -> String {
-        format!("scene {:016x} frame {frame}", self.0)
     }
 }
 
@@ -118,11 +131,29 @@ mod tests {
     fn the_ending_decides() {
         let kind = |path: &str| Target::parse(Path::new(path));
         assert!(matches!(kind("a/%04d.png"), Ok(Target::Sequence(_))));
-        assert!(matches!(kind("a.apng"), Ok(Target::Apng(_))));
-        assert!(matches!(kind("a.GIF"), Ok(Target::Gif(_))));
-        assert!(matches!(kind("a.b.mp4"), Ok(Target::Mp4(_))));
+        assert!(matches!(kind("a.apng"), Ok(Target::File(_, format)) if format.ending == "apng"));
+        assert!(matches!(kind("a.GIF"), Ok(Target::File(_, format)) if format.ending == "gif"));
+        assert!(matches!(kind("a.b.mp4"), Ok(Target::File(_, format)) if format.ending == "mp4"));
         for wrong in ["-", "a", "a.png", "a.webm", "%04d", ".gif", "%d/a.png"] {
             assert_eq!(kind(wrong).err().map(|e| e.kind), Some(Kind::Usage), "{wrong}");
         }
+    }
+
+    #[test]
+    fn the_rate_has_the_limit_of_the_format() {
+        let fps =
+            |path: &str, asked, simulated| Target::parse(Path::new(path)).unwrap().fps(asked, simulated);
+        assert_eq!(fps("a.gif", None, 90.0), Ok(50));
+        assert_eq!(fps("a.mp4", None, 90.4), Ok(90));
+        assert_eq!(fps("%d.png", None, 1e9), Ok(1000));
+        assert_eq!(fps("a.apng", None, 0.1), Ok(1));
+        let error = fps("a.gif", Some(51), 90.0).unwrap_err();
+        assert_eq!((error.kind, &*error.help), (Kind::Usage, "lower --fps to 50, or write .apng or .mp4"));
+    }
+
+    #[test]
+    fn the_help_names_every_format() {
+        assert!(FORMATS.iter().all(|format| help().contains(&format!(".{} (", format.ending))), "{}", help());
+        assert_eq!(endings(|_| true), ".apng, .gif or .mp4");
     }
 }

@@ -8,7 +8,7 @@ use clap::builder::TypedValueParser;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
 use drape::render::Options;
-use drape::scene::{MAX_RESOLUTION, Material, Plan, Scene, Shader};
+use drape::scene::{Collider, MAX_RESOLUTION, Plan, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
@@ -50,12 +50,15 @@ impl Look {
     pub(crate) fn apply(&self, scene: &mut Scene) {
         scene.render.size = self.size.unwrap_or(scene.render.size);
         scene.render.samples = self.samples.unwrap_or(scene.render.samples);
-        for sphere in &mut scene.spheres {
-            let [latitudes, longitudes] = sphere.resolution;
-            sphere.resolution = [self.latitudes.unwrap_or(latitudes), self.longitudes.unwrap_or(longitudes)];
+        for collider in &mut scene.colliders {
+            if let Collider::Sphere(sphere) = collider {
+                let [latitudes, longitudes] = sphere.resolution;
+                sphere.resolution =
+                    [self.latitudes.unwrap_or(latitudes), self.longitudes.unwrap_or(longitudes)];
+            }
         }
         if let Some(shader) = self.shader {
-            materials(scene).for_each(|material| material.shader = shader);
+            scene.materials_mut().for_each(|material| material.shader = shader);
         }
     }
 
@@ -81,13 +84,6 @@ impl Look {
     pub(crate) fn options(&self, ids: bool) -> Options {
         Options { springs: self.springs, ids, ..Options::default() }
     }
-}
-
-fn materials(scene: &mut Scene) -> impl Iterator<Item = &mut Material> {
-    let cloth = scene.cloth.iter_mut().map(|cloth| &mut cloth.material);
-    let planes = scene.planes.iter_mut().map(|plane| &mut plane.material);
-    let spheres = scene.spheres.iter_mut().map(|sphere| &mut sphere.material);
-    cloth.chain(planes).chain(spheres)
 }
 
 fn shader() -> impl TypedValueParser<Value = Shader> {

@@ -85,7 +85,7 @@ pub(crate) struct Moment {
 /// Simulated time in which a cloth has to come to rest, in seconds.
 pub(crate) const REST_TIME: f64 = 60.0;
 
-/// What is let pass.
+/// Which checks are left out.
 #[derive(clap::Args)]
 pub(crate) struct Leniency {
     /// Simulate even a cloth whose steps are too large to be stable

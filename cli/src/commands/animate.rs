@@ -5,33 +5,29 @@ use std::path::{Path, PathBuf};
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
 
-use crate::animation::Format;
-use crate::animation::film::{Drawn, Film};
-use crate::animation::gif;
-use crate::animation::target::{Marks, Target};
-use crate::args::frames::{Frames, Moments};
+use crate::animation::fingerprint::Fingerprint;
+use crate::animation::format::{MAX_FPS, Playback};
+use crate::animation::pipeline::{Drawn, Pipeline};
+use crate::animation::schedule::FrameSchedule;
+use crate::animation::sequence::Sequence;
+use crate::animation::target::{self, Target};
+use crate::args::frames::Frames;
 use crate::args::render::{Look, nothing_seen};
 use crate::args::scene::{Leniency, SceneArgs, frame_at, seconds};
-use crate::run::advance::start;
+use crate::run::start::start;
 use crate::session::Session;
-use crate::session::atomic::Content;
-use crate::session::outputs;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::render::Renderer;
 use drape::scene::Scene;
-
-/// Most pictures per second.
-const MAX_FPS: u16 = 1000;
 
 /// What `animate` takes.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// What to write, by its ending: a PNG a picture with a place for the number (frames/%04d.png),
-    /// .apng, .gif, or .mp4 (through ffmpeg). Of numbered pictures, those that an earlier run of the same
-    /// scene has left are kept
-    #[arg(value_name = "OUT")]
+    #[arg(value_name = "OUT", help = target::help())]
     out: PathBuf,
     /// Simulated frames from A up to, without, B; frame 0 is the start (default: those of --time)
     #[arg(long, value_name = "A..B")]
@@ -67,58 +63,47 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut scene = args.scene.load(session)?;
     args.look.apply(&mut scene);
     let target = Target::parse(&args.out)?;
-    let format = args.format(&scene, &target)?;
-    let moments = args.moments(&scene, format.fps)?;
-    args.check_outputs(&scene, &target, &moments)?;
-    target.check(format)?;
+    let [width, height] = scene.render.size;
+    let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)? };
+    let schedule = args.schedule(&scene, playback.fps)?;
+    args.check_outputs(&scene, &target, &schedule)?;
+    target.check(playback)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.look.textures())?;
     let options = args.look.options(false);
-    let files = target.pattern().map(|names| (names, Marks::new(&scene, &renderer, &options)));
-    let film = Film { target: &target, format, moments: &moments, renderer: &renderer, options, files };
-    let drawn = match film.last_missing(session)? {
+    let sequence = target
+        .pattern()
+        .map(|pattern| Sequence { pattern, fingerprint: Fingerprint::new(&scene, &renderer, &options) });
+    let pipeline =
+        Pipeline { target: &target, playback, schedule: &schedule, renderer: &renderer, options, sequence };
+    let drawn = match pipeline.last_missing(session)? {
         Some(last) => {
             let allowed = args.leniency.allow_unstable;
-            let simulation = start(&scene, moments.frame(last), allowed, session)?;
-            film.shoot(last, simulation, session).map_err(|e| target.stopped(e))?
+            let simulation = start(&scene, schedule.frame(last), allowed, session)?;
+            pipeline.run(last, simulation, session).map_err(|e| target.stopped(e))?
         }
-        None => Drawn { pictures: 0, seen: true },
+        None => Drawn { pictures: 0, visible: true },
     };
-    args.finish(format, &moments, moments.count() - drawn.pictures, session)?;
-    if !drawn.seen {
+    args.finish(playback, &schedule, schedule.count() - drawn.pictures, session)?;
+    if !drawn.visible {
         session.ui.note(&nothing_seen("the pictures"));
     }
     Ok(())
 }
 
 impl Args {
-    /// How the animation is played.
-    fn format(&self, scene: &Scene, target: &Target) -> Result<Format> {
-        let [width, height] = scene.render.size;
-        let most = if matches!(target, Target::Gif(_)) { gif::MAX_FPS } else { MAX_FPS };
-        let every = scene.sim.fps.round().clamp(1.0, f64::from(most));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1000")]
-        let fps = self.fps.unwrap_or(every as u16);
-        if fps > most {
-            let message = format!("a GIF cannot show {fps} pictures a second");
-            let help = format!("at most {most}; .apng and .mp4 can show more");
-            return Err(Error::new(Kind::Usage, message).with_help(help));
-        }
-        Ok(Format { width, height, fps })
-    }
-
-    fn moments(&self, scene: &Scene, fps: u16) -> Result<Moments> {
+    fn schedule(&self, scene: &Scene, fps: u16) -> Result<FrameSchedule> {
         let frames = self.frames.clone().map_or(0..frame_at(self.time, scene), |frames| frames.0);
-        let moments = Moments::new(frames, scene.sim.fps, fps);
-        if moments.count() == 0 {
-            return Err(Error::new(Kind::Nothing, "the time to show is 0, so there is nothing to show")
-                .with_help("ask for more with --time or --frames"));
+        let schedule = FrameSchedule::new(frames, scene.sim.fps, fps);
+        if schedule.count() == 0 {
+            return Err(Error::new(Kind::Nothing, "the time to show is 0 s, so there are no pictures")
+                .with_help("set --time or --frames"));
         }
-        Ok(moments)
+        Ok(schedule)
     }
 
     /// Checks the output before any long work.
-    fn check_outputs(&self, scene: &Scene, target: &Target, moments: &Moments) -> Result<()> {
+    fn check_outputs(&self, scene: &Scene, target: &Target, schedule: &FrameSchedule) -> Result<()> {
         let textures = self.look.inputs(scene);
         let inputs: Vec<&Path> =
             self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
@@ -130,23 +115,25 @@ impl Args {
             return outputs::check(&inputs, [(pattern.folder(), Content::Binary)]);
         }
         let clashes = inputs.iter().filter_map(|path| pattern.number(path));
-        let numbers = [0].into_iter().chain(clashes.filter(|number| (1..moments.count()).contains(number)));
+        let numbers = [0].into_iter().chain(clashes.filter(|number| (1..schedule.count()).contains(number)));
         let pictures: Vec<PathBuf> = numbers.map(|number| pattern.path(number)).collect();
         outputs::check(&inputs, pictures.iter().map(|path| (path.as_path(), Content::Binary)))
     }
 
-    fn finish(&self, format: Format, moments: &Moments, kept: u64, session: &Session) -> Result<()> {
-        let Format { width, height, fps } = format;
-        let (out, pictures) = (self.out.display().to_string(), moments.count());
+    fn finish(
+        &self,
+        playback: Playback,
+        schedule: &FrameSchedule,
+        kept: u64,
+        session: &Session,
+    ) -> Result<()> {
+        let Playback { width, height, fps } = playback;
+        let (out, pictures) = (self.out.display().to_string(), schedule.count());
         #[expect(clippy::cast_precision_loss, reason = "for people")]
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };
-        session.ui.note(&format!(
-            "{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s"
-        ));
-        if session.ui.json {
-            session.print_json(&Summary { out, width, height, fps, pictures, kept, seconds })?;
-        }
-        Ok(())
+        let line =
+            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s");
+        session.report(&Summary { out, width, height, fps, pictures, kept, seconds }, &line)
     }
 }

@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
-use crate::run::advance::certain;
+use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
 use crate::session::ui::paint;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
-use drape::scene::{self, Integrator, Material, Plan, Scene};
+use drape::scene::{self, Material, Plan, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
 
 /// What `check` takes.
@@ -111,10 +111,7 @@ fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnost
 fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
     let plan = Plan::of(scene);
     let [mut images, mut cubes] = [plan.textures, plan.environments].map(BTreeSet::from_iter);
-    let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
-    let planes = scene.planes.iter().map(|plane| &plane.material);
-    let spheres = scene.spheres.iter().map(|sphere| &sphere.material);
-    for Material { texture, height_map, environment, .. } in cloth.chain(planes).chain(spheres) {
+    for Material { texture, height_map, environment, .. } in scene.materials() {
         images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
         cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());
     }
@@ -123,12 +120,11 @@ fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
 
 /// Why the first step would be refused, if it would.
 fn instability(scene: &Scene) -> Option<Error> {
-    // No other integrator has a largest step.
-    let cloth = scene.cloth.as_ref().filter(|_| scene.sim.integrator == Integrator::Verlet)?;
-    match Stability::new(cloth, &scene.sim) {
+    let cloth = scene.cloth.as_ref()?;
+    match Stability::of_bounded(cloth, &scene.sim) {
         Ok(stability) => {
-            let unstable = stability.is_unstable_at_rest();
-            unstable.then(|| certain(&stability, cloth.ks, scene.sim.steps_per_frame))
+            let unstable = stability.filter(Stability::is_unstable_at_rest)?;
+            Some(unstable_at_rest(&unstable, cloth.ks, scene.sim.steps_per_frame))
         }
         Err(error) => Some(error),
     }

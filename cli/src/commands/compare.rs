@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, Difference, difference_picture};
 use drape::output::png::{self, Effort, Pixels};
-use drape_lab::page::{self, html};
+use drape_lab::page::{self, comparison::Row};
 
 /// What `compare` takes.
 #[derive(clap::Args)]
@@ -208,7 +209,7 @@ fn verdict(same: bool, message: impl Fn() -> String) -> Result<()> {
 
 fn row(comparison: &Comparison, pictures: &[Pixels; 2]) -> Result<String> {
     let [expected, actual] = pictures;
-    html::row(&html::Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] })
+    Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] }.html()
 }
 
 fn shown(path: impl AsRef<Path>) -> String {

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::args::scene::{Moment, SceneArgs};
-use crate::run::advance::{advance_until, start};
+use crate::run::advance::advance_until;
+use crate::run::start::start;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::mesh::Mesh;
 use drape::output::obj;
@@ -56,9 +58,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (frame, time) = (simulation.frame(), simulation.time());
     let (points, triangles) = (positions.len(), mesh.triangles.len());
     let mesh = args.mesh.display().to_string();
-    session.ui.note(&format!("{mesh}: {points} points, {triangles} triangles, frame {frame}, {time} s"));
-    if session.ui.json {
-        session.print_json(&Summary { mesh, frame, time, points, triangles })?;
-    }
+    let line = format!("{mesh}: {points} points, {triangles} triangles, frame {frame}, {time} s");
+    session.report(&Summary { mesh, frame, time, points, triangles }, &line)?;
     moved.result()
 }

@@ -2,19 +2,19 @@
 
 use std::path::PathBuf;
 
-use clap::Parser;
 use serde::Serialize;
 
 use crate::args::render::size;
-use crate::arguments::{Arguments, Command};
+use crate::commands::render;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
-use drape_lab::gallery::page::{self, Entry};
+use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
-use drape_lab::gallery::table::{Part, Picture, parts};
+use drape_lab::gallery::table::{Picture, parts_called};
 
 /// The name of the page.
 const INDEX: &str = "index.html";
@@ -54,7 +54,7 @@ struct Made<'a> {
 
 /// Makes the pictures, then writes them and the page.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let parts = args.parts()?;
+    let parts = parts_called(&args.only)?;
     let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
     let shots = pictures.iter().map(|picture| args.shot(picture)).collect::<Result<Vec<Shot>>>()?;
     let files: Vec<PathBuf> =
@@ -69,33 +69,13 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         atomic::write(file, &shown.png)?;
     }
     if !args.pictures {
-        atomic::write(&index, text(&parts, &shots, &shown).as_bytes())?;
+        atomic::write(&index, page::page(&parts, &shots, &shown).as_bytes())?;
     }
     let figures = parts.iter().map(|part| part.figures.len()).sum();
     args.finish(figures, &pictures, &shown, session)
 }
 
 impl Args {
-    /// The figures that are asked for.
-    fn parts(&self) -> Result<Vec<Part>> {
-        let mut parts = parts()?;
-        let names: Vec<String> =
-            parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
-        let is_asked = |figure: &str, text: &String| {
-            figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
-        };
-        if let Some(text) = self.only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
-            let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
-            return Err(error.with_help(format!("the figures are {}", names.join(", "))));
-        }
-        if !self.only.is_empty() {
-            for part in &mut parts {
-                part.figures.retain(|figure| self.only.iter().any(|text| is_asked(figure.name(), text)));
-            }
-        }
-        Ok(parts)
-    }
-
     fn shot(&self, picture: &Picture) -> Result<Shot> {
         let mut shot = read(picture)?;
         shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
@@ -111,23 +91,18 @@ impl Args {
     ) -> Result<()> {
         let folder = self.out.display().to_string();
         let made = if self.pictures { self.out.clone() } else { self.out.join(INDEX) };
-        session.ui.note(&format!("{}: figures {figures}, pictures {}", made.display(), shown.len()));
-        if !session.ui.json {
-            return Ok(());
-        }
+        let line = format!("{}: figures {figures}, pictures {}", made.display(), shown.len());
         let pictures = pictures.iter().zip(shown);
         let pictures =
             pictures.map(|(picture, shown)| Made { name: &picture.name, state: shown.state }).collect();
-        session.print_json(&Summary { folder, pictures })
+        session.report(&Summary { folder, pictures }, &line)
     }
 }
 
 /// What the command line makes of a picture's command, a `drape render` of built-in files.
 fn read(picture: &Picture) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
-    let arguments =
-        Arguments::try_parse_from(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
-    let Command::Render(render) = arguments.command else { return Err(wrong("draws nothing".to_owned())) };
+    let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
     let mut scene = render.scene.load_stock()?;
     render.look.apply(&mut scene);
     let until = render.moment.until(&scene);
@@ -150,41 +125,15 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
     Ok(shown)
 }
 
-/// The page of all that was made.
-fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
-    let mut made = shots.iter().zip(shown);
-    let mut entry = |figure| Entry::new(figure, &mut made);
-    let parts: Vec<_> =
-        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
-    page::page(&parts)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drape::cloth::stability::Stability;
+    use drape::diagnostics::stability::Stability;
+    use drape_lab::gallery::table::parts;
 
     fn pictures() -> Vec<Picture> {
         let parts = parts().unwrap();
         parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
-    }
-
-    #[test]
-    fn figures_are_picked_by_their_name_or_its_beginning() {
-        let picked = |only: &[&str]| {
-            let only = only.iter().map(|&name| name.to_owned()).collect();
-            let args = Args { out: PathBuf::new(), only, size: None, pictures: false };
-            let parts = args.parts().map_err(|e| e.kind)?;
-            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
-        };
-        let part5 = picked(&["part5"]).unwrap();
-        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
-        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
-        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
-        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
-        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
-        assert_eq!(picked(&[]).unwrap().len(), 51);
-        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
     }
 
     /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.

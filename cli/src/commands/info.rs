@@ -3,13 +3,12 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::advance::largest_ks;
-use crate::run::counts;
+use crate::run::stability::largest_ks;
 use crate::session::Session;
-use drape::cloth::Constants;
-use drape::cloth::stability::Stability;
+use drape::cloth::{Params, springs};
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
-use drape::scene::{Cloth, Integrator, Item, Plan, Scene};
+use drape::scene::{Cloth, Item, PerKind, Plan, Scene};
 
 /// What `info` takes.
 #[derive(clap::Args)]
@@ -28,8 +27,8 @@ struct Info {
     time: f64,
     frames: u64,
     cloth: Option<ClothInfo>,
-    planes: usize,
-    spheres: usize,
+    #[serde(flatten)]
+    colliders: PerKind<usize>,
     memory: Memory,
     needs: Vec<Item>,
 }
@@ -93,8 +92,7 @@ impl Info {
             time: scene.render.time,
             frames: frame_at(None, scene),
             cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
-            planes: scene.planes.len(),
-            spheres: scene.spheres.len(),
+            colliders: scene.collider_counts(),
             memory: Memory::of(scene),
             needs: Plan::of(scene).items,
         })
@@ -103,17 +101,18 @@ impl Info {
     fn text(&self) -> String {
         let [width, height] = self.size;
         let needs: String = self.needs.iter().map(need).collect();
+        let colliders: Vec<String> =
+            self.colliders.entries().map(|(plural, count)| format!("{plural} {count}")).collect();
         format!(
             "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
-             objects     planes {}, spheres {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+             objects     {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
             self.samples,
             self.time,
             self.frames,
             self.fps,
             self.steps_per_frame,
             self.cloth.as_ref().map_or_else(|| "cloth       none\n".to_owned(), ClothInfo::text),
-            self.planes,
-            self.spheres,
+            colliders.join(", "),
             self.memory.cloth,
             self.memory.picture,
         )
@@ -122,10 +121,9 @@ impl Info {
 
 impl ClothInfo {
     fn of(cloth: &Cloth, scene: &Scene) -> Result<Self> {
-        let [structural, shearing, bending] = counts::springs(cloth);
-        let explicit = scene.sim.integrator == Integrator::Verlet;
-        let stability = explicit.then(|| Stability::new(cloth, &scene.sim)).transpose()?;
-        let Constants { mass, dt, .. } = Constants::new(cloth, &scene.sim);
+        let [structural, shearing, bending] = springs::counts(cloth);
+        let stability = Stability::of_bounded(cloth, &scene.sim)?;
+        let Params { mass, dt, .. } = Params::new(cloth, &scene.sim);
         Ok(Self {
             points: [cloth.num_width_points, cloth.num_height_points],
             structural,
@@ -217,7 +215,7 @@ impl Memory {
         // Colour and depth of a sample.
         const SAMPLE: usize = 4 * size_of::<f32>();
         let cloth = scene.cloth.as_ref().map_or(0, |cloth| {
-            let springs: usize = counts::springs(cloth).iter().sum();
+            let springs: usize = springs::counts(cloth).iter().sum();
             cloth.num_width_points * cloth.num_height_points * POINT + springs * size_of::<f64>()
         });
         let [width, height] = scene.render.size.map(u64::from);

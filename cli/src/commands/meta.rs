@@ -1,10 +1,9 @@
 //! `drape schema`, `completions` and `man`: what other programs want to know of this one.
 
-use clap::CommandFactory;
+use clap::Command;
 use clap_complete::Shell;
 
-use crate::arguments::Arguments;
-use crate::session::atomic;
+use crate::session::Session;
 use drape::error::{Error, Kind, Result};
 use drape::scene;
 
@@ -25,32 +24,31 @@ pub(crate) struct ManArgs {
 }
 
 /// Prints the schema of scene files, for people to read.
-pub(crate) fn schema() -> Result<()> {
-    atomic::write_stdout(format!("{:#}\n", scene::schema()).as_bytes())
+pub(crate) fn schema(session: &Session) -> Result<()> {
+    session.print_text(format!("{:#}\n", scene::schema()))
 }
 
-/// Prints the script.
-pub(crate) fn completions(args: &CompletionsArgs) -> Result<()> {
+/// Prints the script for `drape`, the grammar of the whole command line.
+pub(crate) fn completions(args: &CompletionsArgs, mut drape: Command, session: &Session) -> Result<()> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Arguments::command(), "drape", &mut script);
-    atomic::write_stdout(&script)
+    clap_complete::generate(args.shell, &mut drape, "drape", &mut script);
+    session.print_text(script)
 }
 
-/// Prints the page in the language of `man`.
-pub(crate) fn man(args: &ManArgs) -> Result<()> {
-    let mut all = Arguments::command();
+/// Prints the manual page, in the language of `man`, of `drape` or of one of its commands.
+pub(crate) fn man(args: &ManArgs, mut drape: Command, session: &Session) -> Result<()> {
     // Gives every command its whole name and the global options.
-    all.build();
+    drape.build();
     let page = match &args.command {
-        None => all,
-        Some(name) => all.find_subcommand(name).cloned().ok_or_else(|| unknown(name))?,
+        None => drape,
+        Some(name) => drape.find_subcommand(name).cloned().ok_or_else(|| unknown(name))?,
     };
     let name = page.get_display_name().unwrap_or("drape").to_owned();
     let mut text = Vec::new();
     clap_mangen::Man::new(page.name(name).version(env!("CARGO_PKG_VERSION")))
         .render(&mut text)
         .map_err(|e| Error::new(Kind::Internal, format!("cannot write the page: {e}")))?;
-    atomic::write_stdout(&text)
+    session.print_text(text)
 }
 
 fn unknown(name: &str) -> Error {

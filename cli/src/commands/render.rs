@@ -2,15 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Parser;
 use serde::Serialize;
 
 use crate::args::render::{Look, nothing_seen};
 use crate::args::scene::{Moment, SceneArgs};
-use crate::run::advance::{advance_until, start};
+use crate::run::advance::advance_until;
 use crate::run::bench;
+use crate::run::start::start;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::output::png::{self, Effort};
 use drape::output::raw;
@@ -80,6 +83,16 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    /// Reads a whole command line: `drape render` and its arguments.
+    pub(crate) fn parse_line(words: Vec<String>) -> std::result::Result<Self, clap::Error> {
+        #[derive(clap::Parser)]
+        enum Drape {
+            Render(Args),
+        }
+        let Drape::Render(args) = Drape::try_parse_from(words)?;
+        Ok(args)
+    }
+
     /// Where the picture goes.
     fn picture_path(&self) -> Result<PathBuf> {
         let beside = || Some(Path::new(self.scene.path.file_stem()?).with_extension("png"));

@@ -6,15 +6,16 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::args::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
-use crate::run::advance::{Until, advance_until, start};
-use crate::run::counts;
+use crate::run::advance::{Until, advance_until};
+use crate::run::start::start;
 use crate::run::table::Table;
 use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
-use drape::cloth::Counters;
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
+use drape::cloth::{Counters, springs};
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::ledger::Ledger;
 use drape::error::{Error, Kind, Result};
 use drape::output::raw;
 use drape::scene::Scene;
@@ -105,7 +106,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let moved = args.write_failed(table.as_ref(), moved)?;
     args.write_positions(&simulation)?;
     args.write_table(table.as_ref())?;
-    let springs = scene.cloth.as_ref().map_or(0, |cloth| counts::springs(cloth).iter().sum());
+    let springs = scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum());
     if args.bench {
         session.print_json(&bench(&simulation, springs, moved.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
@@ -142,7 +143,7 @@ impl Args {
             hashes.push(hash);
             return Ok(());
         }
-        atomic::write_stdout(format!("{} {hash}\n", now.frame()).as_bytes())
+        session.print_text(format!("{} {hash}\n", now.frame()))
     }
 
     fn write_table(&self, table: Option<&Table>) -> Result<()> {

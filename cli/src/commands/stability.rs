@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::SceneArgs;
-use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use crate::session::progress::Tally;
+use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Cloth, Scene};
 use drape_lab::page::short;
@@ -65,8 +66,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 
     let (map, rows) = args.measure(&scene, cloth, session)?;
     let results = Results { map: &map, extremes: &rows };
-    let json = serde_json::to_string_pretty(&results)
-        .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+    let json = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
     let [index, data] = files;
     atomic::write(&data, (json + "\n").as_bytes())?;
     atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 impl Args {
     fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
         let axes = self.axes();
-        let total = axes.pieces() + extremes::len();
+        let total = axes.work() + extremes::len();
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);
@@ -146,21 +146,22 @@ mod tests {
     use clap::{CommandFactory, Parser};
 
     use super::*;
-    use crate::arguments::{Arguments, Command};
+
+    #[derive(Parser)]
+    struct Stability {
+        #[command(flatten)]
+        args: Args,
+    }
 
     #[test]
     fn the_help_has_the_defaults() {
-        let mut all = Arguments::command();
-        let help = all.find_subcommand_mut("stability").unwrap().render_long_help().to_string();
+        let help = Stability::command().render_long_help().to_string();
         for default in FULL.iter().chain(&QUICK) {
             assert!(Values::parse(default).is_ok() && help.contains(default), "{default}: {help}");
         }
         let axes = |option: &[&str]| {
-            let words = ["drape", "stability", "a.json"].iter().chain(option);
-            match Arguments::try_parse_from(words).unwrap().command {
-                Command::Stability(args) => args.axes(),
-                _ => panic!("another command"),
-            }
+            let words = ["stability", "a.json"].iter().chain(option);
+            Stability::try_parse_from(words).unwrap().args.axes()
         };
         let [full, quick] = [axes(&[]), axes(&["--quick"])];
         assert_eq!([full.ks.len(), full.density.len(), full.steps.len()], [7, 4, 10]);

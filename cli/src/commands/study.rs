@@ -3,14 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use crate::args::scene::SceneArgs;
-use crate::session::Session;
-use crate::session::atomic::{self, Content};
-use crate::session::outputs;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::Content;
 use crate::session::progress::Tally;
+use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
-use drape_lab::study::matrix::{Extent, Source};
-use drape_lab::study::store::Store;
+use drape_lab::store::Store;
+use drape_lab::study::extent::Extent;
+use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
 
 /// What `study` takes.
@@ -59,8 +61,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     drop(progress);
     let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
     let results = Results::new(&study, &name, store.counts());
-    let bytes = serde_json::to_vec_pretty(&results)
-        .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
+    let bytes = serde_json::to_vec_pretty(&results).map_err(|e| json_failed(&e))?;
     atomic::write(&json, &bytes)?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
     atomic::write(&page, study::page(&study, &name)?.as_bytes())?;

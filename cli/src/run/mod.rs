@@ -1,6 +1,8 @@
-//! What several commands do: a simulation that is watched, its table, its timings.
+//! A simulation as the commands run it: checked at its start, stopped by signals, shown by progress, and
+//! what is measured on the way.
 
+pub(crate) mod stability;
+pub(crate) mod start;
 pub(crate) mod advance;
-pub(crate) mod bench;
-pub(crate) mod counts;
 pub(crate) mod table;
+pub(crate) mod bench;

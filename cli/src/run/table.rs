@@ -1,29 +1,18 @@
 //! The table of `simulate --csv`: a row a frame.
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::measure::Extremes;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::extremes::Extremes;
+use drape::diagnostics::ledger::Ledger;
 use drape::simulation::Simulation;
 use drape_lab::csv::Csv;
 
 /// The columns: seconds, J, J put in since the frame before, then the extremes (m, m/s).
-const COLUMNS: [&str; 15] = [
-    "time",
-    "kinetic",
-    "spring",
-    "gravitational",
-    "total",
-    "by_gravity",
-    "by_springs",
-    "by_damping",
-    "by_self_collision",
-    "by_planes",
-    "by_spheres",
-    "by_stretch_limit",
-    "largest_stretch",
-    "smallest_distance",
-    "largest_speed",
-];
+fn columns() -> Vec<String> {
+    let energies = ["time", "kinetic", "spring", "gravitational", "total"].map(str::to_owned);
+    let put_in = Ledger::default().entries().map(|(name, _)| format!("by_{name}"));
+    let extremes = ["largest_stretch", "smallest_distance", "largest_speed"].map(str::to_owned);
+    energies.into_iter().chain(put_in).chain(extremes).collect()
+}
 
 /// The rows so far.
 pub(crate) struct Table {
@@ -35,7 +24,9 @@ pub(crate) struct Table {
 impl Table {
     /// A table without rows.
     pub(crate) fn new() -> Self {
-        Self { csv: Csv::new(&COLUMNS), before: Ledger::default() }
+        let columns = columns();
+        let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+        Self { csv: Csv::new(&names), before: Ledger::default() }
     }
 
     /// Adds the state of `simulation`, whose ledger is kept.
@@ -43,7 +34,7 @@ impl Table {
         let energy = simulation.energy();
         let Energy { kinetic, spring, gravitational } = energy;
         let ledger = simulation.ledger().unwrap_or_default();
-        let pairs = ledger.entries().into_iter().zip(self.before.entries());
+        let pairs = ledger.entries().zip(self.before.entries());
         let put_in = pairs.map(|((_, now), (_, before))| now - before);
         let Extremes { stretch, distance, speed } = simulation.extremes();
         let energies = [simulation.time(), kinetic, spring, gravitational, energy.total()];

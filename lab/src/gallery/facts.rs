@@ -1,10 +1,10 @@
-//! What stands under a picture: its parameters, how stable its step is, where its energy went.
+//! The text under a picture: its parameters, the stability of its step, its energy.
 
 use super::shot::{Shot, State};
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::scene::{Cloth, Material, Scene, Shader};
 
-/// The parameters that a picture was made with.
+/// The parameters of a picture.
 pub(super) fn parameters(shot: &Shot, state: &State) -> String {
     let scene = &shot.scene;
     let mut parts = Vec::new();
@@ -15,7 +15,7 @@ pub(super) fn parameters(shot: &Shot, state: &State) -> String {
     } else {
         parts.push("no cloth".to_owned());
     }
-    parts.extend(looks(scene));
+    parts.extend(drawing(scene));
     parts.push(format!("camera at polar {}°, azimuth {}°", scene.camera.polar, scene.camera.azimuth));
     parts.join(" · ")
 }
@@ -38,12 +38,9 @@ fn cloth_parameters(cloth: &Cloth) -> String {
     )
 }
 
-/// How the objects are drawn.
-fn looks(scene: &Scene) -> Vec<String> {
-    let cloth = scene.cloth.as_ref().map(|cloth| &cloth.material);
-    let Some(material) = cloth.or(scene.spheres.first().map(|sphere| &sphere.material)) else {
-        return Vec::new();
-    };
+/// The parameters of how the objects are drawn.
+fn drawing(scene: &Scene) -> Vec<String> {
+    let Some(material) = scene.materials().next() else { return Vec::new() };
     let Material { shader, ka, kd, ks, normal_scaling, height_scaling, .. } = material;
     let mut parts = vec![format!("shader {}", shader.name())];
     if *shader == Shader::Phong {
@@ -56,12 +53,12 @@ fn looks(scene: &Scene) -> Vec<String> {
         let color = scene.light.color;
         parts.push(format!("light ({}, {}, {})", color.x, color.y, color.z));
     }
-    let balls = scene.spheres.iter().map(|sphere| sphere.resolution);
+    let balls = scene.spheres().map(|sphere| sphere.resolution);
     parts.extend(balls.map(|[latitudes, longitudes]| format!("ball of {latitudes} × {longitudes} cells")));
     parts
 }
 
-/// How far the step is from what the springs stand.
+/// The step compared with the bounds of stability.
 pub(super) fn margin(state: &State) -> String {
     let Some(stability) = state.stability else {
         return "Nothing moves, so there is no step.".to_owned();
@@ -80,12 +77,12 @@ pub(super) fn margin(state: &State) -> String {
     format!("dt·ω = {rest:.3} at rest, {worst:.3} at worst; the limit is {limit:.3}{undamped}: {verdict}.")
 }
 
-/// What each phase put in or took out until the moment, and what is left of it as motion.
+/// The energy that each phase put in or took out so far, and the kinetic energy now.
 pub(super) fn ledger(state: &State) -> String {
     let Some(ledger) = state.ledger.filter(|_| state.frame > 0) else {
         return "Nothing has moved yet.".to_owned();
     };
-    let entries = ledger.entries().into_iter().filter(|(_, joule)| *joule != 0.0);
+    let entries = ledger.entries().filter(|(_, joule)| *joule != 0.0);
     let entries: Vec<_> =
         entries.map(|(name, joule)| format!("{} {}", name.replace('_', " "), joules(joule))).collect();
     format!(

@@ -1,11 +1,11 @@
-//! Pictures of many moments: those of one simulation share it, the simulations run side by side.
+//! Pictures of many moments: pictures that can share a simulation do, and simulations run side by side.
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use drape::cloth::energy::Energy;
-use drape::cloth::ledger::Ledger;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::energy::Energy;
+use drape::diagnostics::ledger::Ledger;
+use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
 use drape::render::{Options, Picture, Renderer};
@@ -16,13 +16,13 @@ use drape::texture_source::TextureSource;
 /// A picture to take.
 #[derive(Clone, Debug)]
 pub struct Shot {
-    /// The scene as it is drawn.
+    /// The scene.
     pub scene: Scene,
-    /// What is asked of the picture besides.
+    /// The options of the renderer.
     pub options: Options,
-    /// The frame that it shows.
+    /// The frame of the picture.
     pub frame: u64,
-    /// Whether the energy of the cloth may grow without end.
+    /// Whether the cloth may become unstable.
     pub allow_unstable: bool,
 }
 
@@ -33,11 +33,11 @@ pub struct Shown {
     pub png: Vec<u8>,
     /// The picture at half its width and height, as PNG; each pixel is the mean of four.
     pub half: Vec<u8>,
-    /// What is known of the cloth at its moment.
+    /// The cloth at this moment.
     pub state: State,
 }
 
-/// What is known of a cloth at the moment of a picture.
+/// A cloth at the moment of a picture, in numbers.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct State {
     /// The frame.
@@ -49,10 +49,10 @@ pub struct State {
     pub state_hash: u64,
     /// The energies, in J.
     pub energy: Energy,
-    /// What each phase put in until the moment, in J, if it was recorded and there is a cloth.
+    /// The energy that each phase put in so far, in J, if it was recorded and there is a cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ledger: Option<Ledger>,
-    /// How the springs stand the step, if there is a cloth.
+    /// The bounds of the step, if there is a cloth.
     pub stability: Option<Stability>,
 }
 
@@ -61,25 +61,21 @@ fn hexadecimal<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok,
 }
 
 impl Shot {
-    /// Whether two pictures are moments of one simulation: all but the looks is the same.
+    /// Whether two pictures are moments of one simulation: their scenes differ at most in how they are drawn.
     fn shares_simulation(&self, other: &Self) -> bool {
         let (a, b) = (&self.scene, &other.scene);
         let cloth = match (&a.cloth, &b.cloth) {
             (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
             (a, b) => a.is_none() && b.is_none(),
         };
-        let planes = |scene: &Scene| -> Vec<_> {
-            scene.planes.iter().map(|plane| (plane.point, plane.normal, plane.friction)).collect()
-        };
-        let spheres = |scene: &Scene| -> Vec<_> {
-            scene.spheres.iter().map(|sphere| (sphere.origin, sphere.radius, sphere.friction)).collect()
-        };
-        let same_world = a.sim == b.sim && planes(a) == planes(b) && spheres(a) == spheres(b);
-        cloth && same_world && self.allow_unstable == other.allow_unstable
+        let colliders = a.colliders.len() == b.colliders.len()
+            && a.colliders.iter().zip(&b.colliders).all(|(a, b)| a.collides_like(b));
+        cloth && colliders && a.sim == b.sim && self.allow_unstable == other.allow_unstable
     }
 }
 
-/// The places of `shots` by simulation, each in the order of the frames; longest simulation first.
+/// The indices of `shots` grouped by simulation, each group in the order of the frames, the longest simulation
+/// first.
 fn simulations(shots: &[Shot]) -> Vec<Vec<usize>> {
     let mut simulations: Vec<Vec<usize>> = Vec::new();
     for (place, shot) in shots.iter().enumerate() {
@@ -103,8 +99,8 @@ pub fn frames(shots: &[Shot]) -> u64 {
     simulations(shots).iter().filter_map(last).sum()
 }
 
-/// Takes the pictures `shots`, in their order, with an energy ledger if `ledger`. `each_frame` is
-/// called after every frame, by many threads.
+/// Takes the pictures `shots` and returns them in this order; records an energy ledger if `ledger` is true.
+/// `each_frame` is called after every frame, from many threads.
 ///
 /// # Errors
 /// Those of the simulations, of the pictures and of `each_frame`.
@@ -123,7 +119,7 @@ pub fn take(
     Ok(taken.into_iter().map(|(_, shown)| shown).collect())
 }
 
-/// The pictures at `places`, which share a simulation.
+/// The pictures at the indices `places`, which share a simulation.
 fn film(
     shots: &[Shot],
     places: &[usize],
@@ -139,8 +135,8 @@ fn film(
     if ledger {
         simulation.record_ledger()?;
     }
-    let stability =
-        first.scene.cloth.as_ref().map(|cloth| Stability::new(cloth, &first.scene.sim)).transpose()?;
+    let cloth = first.scene.cloth.as_ref();
+    let stability = cloth.map(|cloth| Stability::of_bounded(cloth, &first.scene.sim)).transpose()?.flatten();
     shots
         .map(|(place, shot)| {
             while simulation.frame() < shot.frame {
@@ -152,7 +148,7 @@ fn film(
         .collect()
 }
 
-/// The picture of `shot`, whose moment it is.
+/// The picture of `shot` at the moment of `simulation`.
 fn show(shot: &Shot, simulation: &Simulation, stability: Option<Stability>) -> Result<Shown> {
     let renderer = Renderer::new(&shot.scene, &TextureSource::BuiltIn)?;
     let picture = renderer.draw(simulation.positions(), &shot.options);

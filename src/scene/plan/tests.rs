@@ -54,9 +54,11 @@ cube maps: left out: no shader reads one";
 #[test]
 fn phases_are_left_out_when_nothing_needs_them() {
     let all = plan(TWO_BALLS, &[]);
-    assert!(!all.planes && all.spheres && !all.kept_outside);
+    assert!(!line(&all, "collision with planes").needed && line(&all, "collision with spheres").needed);
     assert_eq!((all.self_collision, all.stretch_limit), (SelfCollision::SameBox, Some(0.1)));
-    assert!(plan(TWO_BALLS, &["sim.contact=outside"]).kept_outside);
+    let outside = plan(TWO_BALLS, &["sim.contact=outside"]);
+    let kept = "the scene has 2 spheres, and sim.contact is outside: points are kept out";
+    assert_eq!(line(&outside, "collision with spheres").reason, kept);
 
     let thin = plan(TWO_BALLS, &["cloth.thickness=0"]);
     assert_eq!(thin.self_collision, SelfCollision::Off);
@@ -76,7 +78,7 @@ fn without_a_cloth_nothing_is_simulated() {
     let text = r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}}"#;
     let plan = plan(text, &["sim.contact=outside"]);
     assert_eq!((plan.self_collision, plan.stretch_limit), (SelfCollision::Off, None));
-    assert!(!plan.planes && !plan.spheres && !plan.kept_outside);
+    assert!(!line(&plan, "collision with planes").needed && !line(&plan, "collision with spheres").needed);
     assert_eq!(line(&plan, "collision with spheres").reason, "the scene has no cloth");
     assert_eq!(plan.objects.len(), 1);
     assert_eq!(plan.objects[0].name, "sphere");

@@ -4,7 +4,7 @@
 
 use crate::scenes;
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::math::{ln, powi};
 use drape::scene::{Contact, Damping, Scene, SelfCollision, Start, Vec3};
 use drape::simulation::Simulation;
@@ -165,11 +165,11 @@ fn most_inside(scene: &Scene, frames: u64) -> (usize, f64) {
         let mut inside = 0;
         for p in 0..x.len() {
             let mut depth = f64::NEG_INFINITY;
-            for sphere in &scene.spheres {
+            for sphere in scene.spheres() {
                 let rounding = 4.0 * f64::EPSILON * sphere.radius;
                 depth = depth.max(sphere.radius - (x.get(p) - sphere.origin).norm() - rounding);
             }
-            for plane in &scene.planes {
+            for plane in scene.planes() {
                 depth = depth.max(-(x.get(p) - plane.point).dot(&plane.normal));
             }
             inside += usize::from(depth > 0.0);
@@ -199,13 +199,14 @@ fn a_cloth_that_starts_on_a_plane_stays_on_its_side() {
     let mut scene = scenes::plane();
     let cloth = scene.cloth.as_mut().unwrap();
     (cloth.num_width_points, cloth.num_height_points, cloth.thickness) = (10, 10, 0.01);
-    scene.planes[0].point = Vec3::new(0.0, 1.0, 0.0);
+    let point = Vec3::new(0.0, 1.0, 0.0);
+    scenes::plane_mut(&mut scene).point = point;
     scene.sim.contact = Contact::Outside;
     for normal in [Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.6, 0.8, 0.0)] {
-        scene.planes[0].normal = normal;
+        scenes::plane_mut(&mut scene).normal = normal;
         // Points start on both sides of the tilted plane, and each stays on its own.
         let mut simulation = Simulation::new(&scene).unwrap();
-        let side = |x: &Points, p: usize| (x.get(p) - scene.planes[0].point).dot(&(normal / normal.norm()));
+        let side = |x: &Points, p: usize| (x.get(p) - point).dot(&(normal / normal.norm()));
         let above: Vec<bool> = (0..100).map(|p| side(simulation.positions(), p) >= 0.0).collect();
         for step in 0..5400 {
             simulation.step();

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::scenes;
-use drape::cloth::ledger::Ledger;
+use drape::diagnostics::ledger::Ledger;
 use drape::math::powi;
 use drape::scene::{Scene, Vec3};
 use drape::simulation::Simulation;
@@ -11,8 +11,8 @@ use drape::simulation::Simulation;
 /// Every phase at once: a folded cloth that falls on a ball and on the floor.
 fn everything() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
-    scene.planes[0].point.y = 0.35;
+    scenes::add_plane(&mut scene, scenes::floor());
+    scenes::plane_mut(&mut scene).point.y = 0.35;
     let cloth = scene.cloth.as_mut().unwrap();
     (cloth.num_width_points, cloth.num_height_points, cloth.thickness) = (16, 16, 0.03);
     cloth.pinned = vec![[0, 0], [5, 7]];
@@ -36,14 +36,14 @@ fn the_ledger_closes() {
         }
         let mut simulation = recorded(&scene);
         let start = simulation.energy();
-        let mut used = Ledger::default().entries().map(|_| 0.0);
+        let mut used: Vec<f64> = Ledger::default().entries().map(|_| 0.0).collect();
         for frame in 1..=120_u32 {
             simulation.advance_frame().unwrap();
             let (now, ledger) = (simulation.energy(), simulation.ledger().unwrap());
             let error = (now.total() - start.total() - ledger.sum()).abs();
             let bound = 1e-13 * f64::from(30 * frame) * start.total().abs().max(now.kinetic);
             assert!(error <= bound, "{name}, frame {frame}: off by {error:e} J, bound {bound:e} J");
-            ledger.entries().iter().zip(&mut used).for_each(|((_, e), used)| *used += e.abs());
+            ledger.entries().zip(&mut used).for_each(|((_, e), used)| *used += e.abs());
         }
         if name == "everything" {
             assert!(used.iter().all(|&used| used > 0.0), "every part takes part: {used:?}");

@@ -6,7 +6,7 @@
 use crate::scenes;
 use std::collections::BTreeSet;
 
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::error::Kind;
 use drape::math::powi;
 use drape::scene::{Cloth, Scene, SelfCollision, Sim, Vec3};
@@ -150,7 +150,7 @@ fn springs_that_answer_the_stretch_limit_are_no_blow_up() {
     (0..40).for_each(|_| simulation.advance_frame().unwrap());
     let (ledger, kinetic) = (simulation.ledger().unwrap(), simulation.energy().kinetic);
     let put_in = ledger.springs + ledger.gravity;
-    // Half of M g L, as `src/cloth/guard.rs` has it, is 735 J.
+    // Half of M g L, as `src/diagnostics/energy_bound.rs` has it, is 735 J.
     assert!(put_in > 735.0 && kinetic < 30.0, "{put_in} J in, {kinetic} J in motion");
 }
 

@@ -1,20 +1,20 @@
 //! The simulation agrees in every bit with the published method.
 //!
-//! `naive` is the method a second time, which shares no code with the library. Random small scenes and the
+//! The textbook cloth is the method a second time, which shares no code with the library. Random small scenes and the
 //! five stock scenes are run by both, for up to 1000 frames.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-use crate::naive;
 use crate::scenes;
+use crate::textbook_cloth::Cloth;
 use drape::cloth::Points;
 use drape::math::{StateHash, splitmix64};
-use drape::scene::{Orientation, Plane, Scene, SelfCollision, Sphere, Vec3};
+use drape::scene::{Collider, Orientation, Plane, Scene, SelfCollision, Sphere, Vec3};
 use drape::simulation::Simulation;
 use proptest::prelude::*;
 
 /// Whether all bits are those of `simulation`.
-fn equals(cloth: &naive::Cloth, simulation: &Simulation) -> Result<(), String> {
+fn equals(cloth: &Cloth, simulation: &Simulation) -> Result<(), String> {
     for p in 0..cloth.x.len() {
         let theirs = [simulation.positions().get(p), simulation.last_positions().get(p)];
         for (ours, theirs) in [cloth.x[p], cloth.last[p]].into_iter().zip(theirs.map(|v| [v.x, v.y, v.z])) {
@@ -31,7 +31,7 @@ fn equals(cloth: &naive::Cloth, simulation: &Simulation) -> Result<(), String> {
 /// metres, so that some meet and many lie on the border of a box.
 fn agree(scene: &Scene, steps: u64, snap: Option<f64>) -> Result<(), String> {
     let mut simulation = Simulation::new(scene).map_err(|error| error.to_string())?;
-    let mut cloth = naive::Cloth::new(scene, naive::Mistakes::default());
+    let mut cloth = Cloth::new(scene);
     if let Some(pitch) = snap {
         let mut start = simulation.positions().clone();
         for p in 0..start.len() {
@@ -100,7 +100,7 @@ prop_compose! {
 
 prop_compose! {
     fn any_sphere()(origin in vector(1.0), radius in 0.05_f64..1.0, friction in 0.0_f64..=1.0) -> Sphere {
-        Sphere { origin, radius, friction, ..scenes::sphere().spheres.remove(0) }
+        Sphere { origin, radius, friction, ..scenes::ball() }
     }
 }
 
@@ -117,8 +117,8 @@ prop_compose! {
     ) -> Scene {
         let mut scene = scenes::pinned2();
         scene.cloth = Some(cloth);
-        scene.planes = planes;
-        scene.spheres = spheres;
+        let planes = planes.into_iter().map(Collider::Plane);
+        scene.colliders = planes.chain(spheres.into_iter().map(Collider::Sphere)).collect();
         scene.sim = drape::scene::Sim {
             gravity, steps_per_frame, stretch_limit, stretch_passes, self_collision, ..scene.sim
         };
@@ -160,15 +160,15 @@ const STOCK_HASHES: [u64; 5] = [
     0xdb2e_58bc_a924_b0d5,
 ];
 
-/// The naive method takes a minute and a half of CPU time for all 1000 frames, so here it runs along for 100.
+/// The textbook cloth takes a minute and a half of CPU time for all 1000 frames, so here it runs along for 100.
 #[test]
 fn stock_scenes_agree_in_every_bit_and_keep_their_hashes() {
     all_stock_scenes_agree(100);
 }
 
-/// All frames by both: `cargo test --release --test method_bits -- --ignored`.
+/// All frames by both: `cargo test --release --test engine method_bits -- --ignored`.
 #[test]
-#[ignore = "the naive method is slow"]
+#[ignore = "the textbook cloth is slow"]
 fn stock_scenes_agree_in_every_bit_for_1000_frames() {
     all_stock_scenes_agree(1000);
 }
@@ -185,7 +185,7 @@ fn all_stock_scenes_agree(by_both: u64) {
 /// `expected`.
 fn stock_scene_agrees(name: &str, scene: &Scene, expected: u64, by_both: u64) {
     let mut simulation = Simulation::new(scene).unwrap();
-    let mut cloth = naive::Cloth::new(scene, naive::Mistakes::default());
+    let mut cloth = Cloth::new(scene);
     let mut hash = StateHash::default();
     for frame in 1..=1000 {
         simulation.advance_frame().unwrap();
@@ -203,7 +203,7 @@ fn stock_scene_agrees(name: &str, scene: &Scene, expected: u64, by_both: u64) {
 /// A cloth of 200 x 200 points, a large one whose steps are shared among threads.
 fn large_scene() -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
+    scenes::add_plane(&mut scene, scenes::floor());
     (scene.sim.fps, scene.sim.steps_per_frame) = (270.0, 40);
     scene.sim.stretch_passes = 2;
     let cloth = scene.cloth.as_mut().unwrap();

@@ -29,6 +29,10 @@ fn exact(integrator: Integrator, mu: f64, steps: usize) -> Vec<f64> {
         before = y;
         y = match integrator {
             Integrator::Verlet => [cos((k as f64 + 1.5) * theta) / cos(0.5 * theta), 0.0],
+            Integrator::Rk4 => {
+                let square = mu * mu;
+                times(y, [1.0 - square / 2.0 + square * square / 24.0, mu * square / 6.0 - mu])
+            }
             Integrator::Xpbd | Integrator::ImplicitEuler => euler,
             Integrator::Bdf2 if k == 0 => euler,
             Integrator::Bdf2 => over(numerator, [1.0, 2.0 / 3.0 * mu]),
@@ -39,7 +43,7 @@ fn exact(integrator: Integrator, mu: f64, steps: usize) -> Vec<f64> {
 }
 
 /// Two crossed springs, of which the one between (0, 0) and (1, 1) has a free end.
-fn one_spring(integrator: Integrator, ks: f64) -> Scene {
+pub(super) fn one_spring(integrator: Integrator, ks: f64) -> Scene {
     let mut scene = hanging(2, integrator);
     (scene.sim.gravity, scene.sim.tolerance) = (Vec3::zeros(), 1e-14);
     let cloth = scene.cloth.as_mut().unwrap();
@@ -53,7 +57,7 @@ fn one_spring(integrator: Integrator, ks: f64) -> Scene {
 fn one_spring_moves_by_the_exact_discrete_solution() {
     for integrator in ALL {
         for mu in [0.05, 0.3, 1.0, 1.9, 30.0] {
-            if integrator == Integrator::Verlet && mu > 2.0 {
+            if matches!(integrator, Integrator::Verlet | Integrator::Rk4) && mu > 2.0 {
                 continue;
             }
             let ks = (mu * 2700.0) * (mu * 2700.0);
@@ -75,7 +79,7 @@ fn one_spring_moves_by_the_exact_discrete_solution() {
     }
 }
 
-/// Without springs in the way: symplectic and implicit Euler fall by `g h² k (k + 1) / 2`.
+/// Without springs in the way: symplectic and implicit Euler fall by `g h² k (k + 1) / 2`, Runge-Kutta by `g t² / 2`.
 #[test]
 fn free_fall_is_the_exact_discrete_one() {
     let h = 1.0 / 2700.0;
@@ -84,11 +88,13 @@ fn free_fall_is_the_exact_discrete_one() {
         let (mut y, mut last, mut v, mut v_last) = (0.0, 0.0, 0.0, 0.0);
         for k in 0..900_i32 {
             simulation.step();
-            let (v_next, y_next) = if integrator == Integrator::Bdf2 && k > 0 {
-                let v_next = (4.0 * v - v_last) / 3.0 - 2.0 / 3.0 * h * G;
-                (v_next, (4.0 * y - last) / 3.0 + 2.0 / 3.0 * h * v_next)
-            } else {
-                (v - h * G, y + h * (v - h * G))
+            let (v_next, y_next) = match integrator {
+                Integrator::Bdf2 if k > 0 => {
+                    let v_next = (4.0 * v - v_last) / 3.0 - 2.0 / 3.0 * h * G;
+                    (v_next, (4.0 * y - last) / 3.0 + 2.0 / 3.0 * h * v_next)
+                }
+                Integrator::Rk4 => (v - h * G, y + h * (v - 0.5 * h * G)),
+                _ => (v - h * G, y + h * (v - h * G)),
             };
             (v_last, v, last, y) = (v, v_next, y, y_next);
             let t = f64::from(k + 1) * h;
@@ -103,7 +109,7 @@ fn free_fall_is_the_exact_discrete_one() {
 }
 
 /// Free fall ends at `g / c` with damping per second, for every step; with damping per step
-/// at `g h / d`, and `g h / (d + d² / 2)` for the second-order formula.
+/// at `g h / d`, `g h / (d + d² / 2)` for the second-order formula, and `g h (1 / d - 1 / 2)` for Runge-Kutta.
 #[test]
 fn damping_has_its_terminal_speed() {
     for integrator in OTHERS {
@@ -117,6 +123,7 @@ fn damping_has_its_terminal_speed() {
             let expected = match (damping, integrator) {
                 (Damping::PerSecond, _) => G / damping_rate(2.0),
                 (_, Integrator::Bdf2) => G / 2700.0 / (d + d * d / 2.0),
+                (_, Integrator::Rk4) => G / 2700.0 * (1.0 / d - 0.5),
                 _ => G / 2700.0 / d,
             };
             let speed = simulation.extremes().speed;

@@ -114,8 +114,8 @@ fn no_stock_scene_is_refused() {
 /// Every phase at once: a cloth that falls on a ball and on the floor.
 fn everything(integrator: Integrator) -> Scene {
     let mut scene = scenes::sphere();
-    scene.planes.push(scenes::floor());
-    scene.planes[0].point.y = 0.35;
+    scenes::add_plane(&mut scene, scenes::floor());
+    scenes::plane_mut(&mut scene).point.y = 0.35;
     scene.sim.integrator = integrator;
     let cloth = scene.cloth.as_mut().unwrap();
     (cloth.num_width_points, cloth.num_height_points, cloth.thickness) = (16, 16, 0.03);

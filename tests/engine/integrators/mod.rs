@@ -6,6 +6,7 @@ mod accuracy;
 mod block_descent;
 mod exact;
 mod laws;
+mod rk4;
 
 use crate::scenes;
 use drape::cloth::Points;
@@ -13,9 +14,10 @@ use drape::scene::{Integrator, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
 const G: f64 = 9.8;
-const ALL: [Integrator; 4] =
-    [Integrator::Verlet, Integrator::Xpbd, Integrator::ImplicitEuler, Integrator::Bdf2];
-const OTHERS: [Integrator; 3] = [Integrator::Xpbd, Integrator::ImplicitEuler, Integrator::Bdf2];
+const ALL: [Integrator; 5] =
+    [Integrator::Verlet, Integrator::Rk4, Integrator::Xpbd, Integrator::ImplicitEuler, Integrator::Bdf2];
+const OTHERS: [Integrator; 4] =
+    [Integrator::Rk4, Integrator::Xpbd, Integrator::ImplicitEuler, Integrator::Bdf2];
 
 /// A cloth of `side` x `side` points held at two corners, undamped, without limit and contact.
 fn hanging(side: usize, integrator: Integrator) -> Scene {

@@ -33,7 +33,7 @@ fn stock_cloth() -> Cloth {
 
 #[test]
 fn a_sphere_has_its_analytic_normals_and_tangents() {
-    let sphere = scenes::sphere().spheres.remove(0);
+    let sphere = scenes::ball();
     let mesh = Mesh::sphere(&sphere, ALL);
     assert_eq!((mesh.positions.len(), mesh.triangles.len()), (41 * 41, 2 * 40 * 40));
     assert_eq!(mesh.positions, mesh.normals);
@@ -48,7 +48,7 @@ fn a_sphere_has_its_analytic_normals_and_tangents() {
 #[test]
 fn a_plane_has_one_frame_whatever_the_length_of_its_normal() {
     for normal in [Vec3::y(), Vec3::new(0.0, 7.0, 0.0), Vec3::new(1.0, 2.0, -3.0), Vec3::new(1.0, 1.0, 1.0)] {
-        let material = scenes::plane().planes.remove(0).material;
+        let material = scenes::material();
         let plane = Plane { point: Vec3::new(0.1, 0.2, 0.3), normal, friction: 0.0, material };
         let mesh = Mesh::plane(&plane, ALL);
         assert_frames(&mesh);
@@ -90,6 +90,6 @@ fn what_is_not_read_is_not_computed() {
     let points = grid::start(&cloth, grid::Grid::new(&cloth).expect("a grid")).expect("points");
     let mesh = Mesh::cloth(&cloth, &points, Needs::default());
     assert!(mesh.normals.is_empty() && mesh.tangents.is_empty() && mesh.uvs.is_empty());
-    let sphere = Mesh::sphere(&scenes::sphere().spheres[0], Needs { uv: true, ..Needs::default() });
+    let sphere = Mesh::sphere(&scenes::ball(), Needs { uv: true, ..Needs::default() });
     assert!(sphere.normals.is_empty() && sphere.tangents.is_empty() && sphere.uvs.len() == 41 * 41);
 }

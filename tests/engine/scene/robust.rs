@@ -27,12 +27,12 @@ fn in_range(scene: &Scene) -> Result<(), TestCaseError> {
         prop_assert!(c.pinned.iter().all(|&[x, y]| x < c.num_width_points && y < c.num_height_points));
         prop_assert!(material(&c.material));
     }
-    for s in &scene.spheres {
+    for s in scene.spheres() {
         prop_assert!(any(s.origin) && positive(s.radius) && (0.0..=1.0).contains(&s.friction));
         prop_assert!((2..=1000).contains(&s.resolution[0]) && (3..=1000).contains(&s.resolution[1]));
         prop_assert!(material(&s.material));
     }
-    for p in &scene.planes {
+    for p in scene.planes() {
         prop_assert!(any(p.point) && any(p.normal) && p.normal.amax() >= 1e-15);
         prop_assert!((0.0..=1.0).contains(&p.friction) && material(&p.material));
     }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use drape::scene::{Overrides, load_text, schema};
+use drape::scene::{Collider, Overrides, load_text, schema};
 use jsonschema::Validator;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -229,7 +229,8 @@ fn every_default_is_the_value_of_a_key_that_is_left_out() {
         let mut given = load(&document);
         // A colour that is given is that of planes too, which are grey otherwise.
         if path == ["material", "color"] {
-            given.planes = scene.planes.clone();
+            let planes = scene.planes().cloned().map(Collider::Plane);
+            given.colliders = planes.chain(given.spheres().cloned().map(Collider::Sphere)).collect();
         }
         assert!(given == scene, "{path:?} is not {default}");
         defaults += 1;

@@ -3,8 +3,8 @@
 use std::fs;
 
 use drape::scene::{
-    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides, Plane,
-    Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
+    Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides,
+    Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
 };
 
 const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];
@@ -42,8 +42,7 @@ fn material() -> Material {
 fn empty() -> Scene {
     Scene {
         cloth: None,
-        planes: vec![],
-        spheres: vec![],
+        colliders: vec![],
         sim: Sim {
             fps: 90.0,
             steps_per_frame: 30,
@@ -103,23 +102,23 @@ fn stock_cloth() -> Cloth {
     }
 }
 
-fn floor() -> Plane {
-    Plane {
+fn floor() -> Collider {
+    Collider::Plane(Plane {
         point: Vec3::zeros(),
         normal: Vec3::new(0.0, 1.0, 0.0),
         friction: 0.5,
         material: Material { color: Vec3::new(0.7, 0.7, 0.7), ..material() },
-    }
+    })
 }
 
-fn ball() -> Sphere {
-    Sphere {
+fn ball() -> Collider {
+    Collider::Sphere(Sphere {
         origin: Vec3::new(0.5, 0.2, 0.5),
         radius: 0.2,
         friction: 0.3,
         resolution: [40, 40],
         material: material(),
-    }
+    })
 }
 
 #[test]
@@ -129,10 +128,10 @@ fn the_stock_scenes_have_exactly_their_values() {
     let corners = [[0, 0], [0, 49], [49, 0], [49, 49]];
     assert_eq!(stock("pinned4"), Scene { cloth: pinned(&corners), ..empty() });
     let horizontal = Some(stock_cloth());
-    assert_eq!(stock("sphere"), Scene { cloth: horizontal.clone(), spheres: vec![ball()], ..empty() });
-    assert_eq!(stock("plane"), Scene { cloth: horizontal, planes: vec![floor()], ..empty() });
+    assert_eq!(stock("sphere"), Scene { cloth: horizontal.clone(), colliders: vec![ball()], ..empty() });
+    assert_eq!(stock("plane"), Scene { cloth: horizontal, colliders: vec![floor()], ..empty() });
     let vertical = Some(Cloth { orientation: Orientation::Vertical, ..stock_cloth() });
-    assert_eq!(stock("selfCollision"), Scene { cloth: vertical, planes: vec![floor()], ..empty() });
+    assert_eq!(stock("selfCollision"), Scene { cloth: vertical, colliders: vec![floor()], ..empty() });
 }
 
 #[test]
@@ -215,14 +214,21 @@ fn every_optional_key_is_read() {
             far: 10.0,
         },
         light: Light { position: v123, intensity: Vec3::new(4.0, 5.0, 6.0), color: Vec3::new(0.0, 0.0, 7.0) },
-        spheres: vec![Sphere {
-            origin: v123,
-            radius: 4.0,
-            friction: 1.0,
-            resolution: [16, 8],
-            material: material.clone(),
-        }],
-        planes: vec![Plane { point: v123, normal: Vec3::new(0.0, 0.0, -4.0), friction: 0.0, material }],
+        colliders: vec![
+            Collider::Plane(Plane {
+                point: v123,
+                normal: Vec3::new(0.0, 0.0, -4.0),
+                friction: 0.0,
+                material: material.clone(),
+            }),
+            Collider::Sphere(Sphere {
+                origin: v123,
+                radius: 4.0,
+                friction: 1.0,
+                resolution: [16, 8],
+                material,
+            }),
+        ],
         render: Render {
             size: [640, 480],
             samples: 16,
@@ -240,15 +246,19 @@ fn materials_are_inherited_key_by_key() {
     let sets = ["material.shader=bump", "material.ka=0.5", "cloth.material.ka=0.25", "plane.material.kd=0"];
     let scene = with(&text, &sets);
     let common = Material { shader: Shader::Bump, ka: 0.5, ..material() };
-    assert_eq!(scene.cloth.unwrap().material, Material { ka: 0.25, ..common.clone() });
     let grey = Vec3::new(0.7, 0.7, 0.7);
-    assert_eq!(scene.planes[0].material, Material { kd: 0.0, color: grey, ..common });
+    let cloth = Material { ka: 0.25, ..common.clone() };
+    assert!(scene.materials().eq([&cloth, &Material { kd: 0.0, color: grey, ..common }]));
 
     let red = Vec3::new(1.0, 0.0, 0.0);
     let scene = with(&text, &["material.color=[1,0,0]"]);
-    assert_eq!(scene.planes[0].material.color, red, "a colour for all objects is also the plane's");
+    assert_eq!(
+        scene.planes().next().unwrap().material.color,
+        red,
+        "a colour for all objects is also the plane's"
+    );
     let scene = with(&text, &["plane.material.color=[1,0,0]"]);
-    assert_eq!(scene.planes[0].material.color, red);
+    assert_eq!(scene.planes().next().unwrap().material.color, red);
     assert_eq!(scene.cloth.unwrap().material.color, Vec3::new(1.0, 1.0, 1.0));
 }
 
@@ -320,7 +330,7 @@ fn sets_reach_one_object_and_lists_of_objects() {
     let list = format!("{{\"sphere\": [{other}]}}");
     let two = format!("{{\"sphere\": [{other}, {other}]}}");
     let radii = |text: &str, set: &str| -> Vec<f64> {
-        with(text, &[set]).spheres.iter().map(|sphere| sphere.radius).collect()
+        with(text, &[set]).spheres().map(|sphere| sphere.radius).collect()
     };
     assert_eq!(radii(&one, "sphere.radius=3"), [3.0]);
     assert_eq!(radii(&one, "sphere.0.radius=3"), [3.0]);

@@ -160,7 +160,8 @@ fn vertex_differs(glsl: &str, rust: &str, default: &str) -> Option<String> {
             let until = text.find("v_position").or_else(|| text.find("default::all_at")).unwrap();
             names(&text[..until])
         });
-        (g.sort_unstable(), r.sort_unstable());
+        g.sort_unstable();
+        r.sort_unstable();
         if g != r {
             return Some(format!("displacement: {r:?} for {g:?}"));
         }

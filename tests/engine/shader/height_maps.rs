@@ -19,7 +19,7 @@ use drape::{
 
 /// The unit ball with all attributes.
 fn ball(resolution: u32) -> Mesh {
-    let sphere = Sphere { resolution: [resolution; 2], ..scenes::sphere().spheres[0].clone() };
+    let sphere = Sphere { resolution: [resolution; 2], ..scenes::ball() };
     Mesh::sphere(&sphere, Needs::of(Shader::Custom))
 }
 

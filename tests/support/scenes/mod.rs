@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test uses some of these")]
 
 use drape::scene::{
-    Camera, Cloth, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane, Precision,
-    Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane,
+    Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
 };
 
 /// Every stock scene by name.
@@ -33,21 +33,22 @@ pub(crate) fn sphere() -> Scene {
     let mut scene = with_cloth(cloth());
     let origin = Vec3::new(0.5, 0.2, 0.5);
     let resolution = [40, 40];
-    scene.spheres.push(Sphere { origin, radius: 0.2, friction: 0.3, resolution, material: material() });
+    let ball = Sphere { origin, radius: 0.2, friction: 0.3, resolution, material: material() };
+    scene.colliders.push(Collider::Sphere(ball));
     scene
 }
 
 /// A cloth that falls flat on the floor.
 pub(crate) fn plane() -> Scene {
     let mut scene = with_cloth(cloth());
-    scene.planes.push(floor());
+    add_plane(&mut scene, floor());
     scene
 }
 
 /// An upright cloth that falls on itself.
 pub(crate) fn self_collision() -> Scene {
     let mut scene = with_cloth(Cloth { orientation: Orientation::Vertical, ..cloth() });
-    scene.planes.push(floor());
+    add_plane(&mut scene, floor());
     scene
 }
 
@@ -76,12 +77,39 @@ pub(crate) fn floor() -> Plane {
     Plane { point: Vec3::zeros(), normal: Vec3::new(0.0, 1.0, 0.0), friction: 0.5, material: material() }
 }
 
+/// Adds a plane where a scene file would have it: before the spheres.
+pub(crate) fn add_plane(scene: &mut Scene, plane: Plane) {
+    scene.colliders.insert(scene.planes().count(), Collider::Plane(plane));
+}
+
+/// The only plane of `scene`, or the first.
+pub(crate) fn plane_mut(scene: &mut Scene) -> &mut Plane {
+    let mut planes = scene.colliders.iter_mut().filter_map(|collider| match collider {
+        Collider::Plane(plane) => Some(plane),
+        _ => None,
+    });
+    planes.next().expect("a plane")
+}
+
+/// The only ball of `scene`, or the first.
+pub(crate) fn ball_mut(scene: &mut Scene) -> &mut Sphere {
+    let mut balls = scene.colliders.iter_mut().filter_map(|collider| match collider {
+        Collider::Sphere(ball) => Some(ball),
+        _ => None,
+    });
+    balls.next().expect("a ball")
+}
+
+/// The stock ball.
+pub(crate) fn ball() -> Sphere {
+    ball_mut(&mut sphere()).clone()
+}
+
 /// A scene of `cloth` and nothing else.
 pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
     Scene {
         cloth: Some(cloth),
-        planes: Vec::new(),
-        spheres: Vec::new(),
+        colliders: Vec::new(),
         sim: Sim {
             fps: 90.0,
             steps_per_frame: 30,

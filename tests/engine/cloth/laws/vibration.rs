@@ -1,7 +1,7 @@
 //! The fastest vibration, and the step that follows from it.
 
 use drape::cloth::Points;
-use drape::cloth::stability::Stability;
+use drape::diagnostics::stability::Stability;
 use drape::math::sin;
 use drape::scene::{Cloth, Scene, Vec3};
 use drape::simulation::Simulation;
@@ -190,9 +190,9 @@ proptest! {
         pins in prop::collection::vec((0_usize..6, 0_usize..6), 1..8), radius in 0.1_f64..1.0,
     ) {
         let mut scene = scenes::sphere();
-        scene.spheres[0].origin = Vec3::new(0.5, 1.0, 0.5);
-        scene.spheres[0].radius = radius;
-        scene.planes.push(scenes::floor());
+        scenes::ball_mut(&mut scene).origin = Vec3::new(0.5, 1.0, 0.5);
+        scenes::ball_mut(&mut scene).radius = radius;
+        scenes::add_plane(&mut scene, scenes::floor());
         let cloth = cloth(&mut scene);
         (cloth.num_width_points, cloth.num_height_points, cloth.thickness) = (6, 6, 0.15);
         cloth.pinned = pins.iter().map(|&(i, j)| [i, j]).collect();

@@ -5,7 +5,7 @@ use drape::camera::{Camera, Columns};
 use drape::cloth::Points;
 use drape::glsl::Exponent;
 use drape::mesh::{Mesh, SpringKinds, spring_lines};
-use drape::scene::{Material, Needs, Scene, Shader, Vec3};
+use drape::scene::{Collider, Material, Needs, Scene, Shader, Vec3};
 use drape::shader::Uniforms;
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
@@ -18,7 +18,7 @@ pub(crate) struct Object<'a> {
     pub(crate) material: &'a Material,
 }
 
-/// The cloth, the planes, the spheres.
+/// The cloth, then the colliders.
 pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> {
     let cloth = scene.cloth.iter().map(|cloth| {
         let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
@@ -26,16 +26,18 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
         let lines = wireframe.then(|| spring_lines(cloth, SpringKinds::of(cloth)));
         Object { mesh, lines, model: model(Vec3::zeros(), 1.0), material: &cloth.material }
     });
-    let planes = scene.planes.iter().map(|plane| {
-        let mesh = Mesh::plane(plane, Needs::of(plane.material.shader));
-        Object { mesh, lines: None, model: model(Vec3::zeros(), 1.0), material: &plane.material }
+    let colliders = scene.colliders.iter().map(|collider| {
+        let material = collider.material();
+        let needs = Needs::of(material.shader);
+        let (mesh, model) = match collider {
+            Collider::Plane(plane) => (Mesh::plane(plane, needs), model(Vec3::zeros(), 1.0)),
+            Collider::Sphere(sphere) => {
+                (Mesh::sphere(sphere, needs), model(sphere.origin, sphere.radius * 0.92))
+            }
+        };
+        Object { mesh, lines: None, model, material }
     });
-    let spheres = scene.spheres.iter().map(|sphere| {
-        let mesh = Mesh::sphere(sphere, Needs::of(sphere.material.shader));
-        let model = model(sphere.origin, sphere.radius * 0.92);
-        Object { mesh, lines: None, model, material: &sphere.material }
-    });
-    cloth.chain(planes).chain(spheres).collect()
+    cloth.chain(colliders).collect()
 }
 
 impl Object<'_> {

@@ -1,0 +1,48 @@
+//! What a format of animations is.
+
+use std::path::Path;
+
+use drape::error::Result;
+
+/// Most pictures per second of any format.
+pub(crate) const MAX_FPS: u16 = 1000;
+
+/// A format that holds all pictures in one file.
+pub(crate) struct Format {
+    /// The extension of its file names, in lower case.
+    pub(crate) ending: &'static str,
+    /// What the help says of it besides the ending; may be empty.
+    pub(crate) note: &'static str,
+    /// Most pictures per second.
+    pub(crate) max_fps: u16,
+    /// Checks, before long work, that a file at this path can be encoded.
+    pub(crate) check: fn(&Path, Playback) -> Result<()>,
+    /// Starts a file at this path for this many pictures.
+    pub(crate) create: fn(&Path, Playback, u64) -> Result<Box<dyn Animation>>,
+}
+
+/// The size and the speed of an animation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Playback {
+    /// Width in pixels (>= 1).
+    pub(crate) width: u32,
+    /// Height in pixels (>= 1).
+    pub(crate) height: u32,
+    /// Pictures per second (>= 1).
+    pub(crate) fps: u16,
+}
+
+/// A file that is being encoded. It appears only when it is complete.
+pub(crate) trait Animation: Send {
+    /// Encodes the next picture: three bytes a pixel, top row first.
+    ///
+    /// # Errors
+    /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be written.
+    fn add(&mut self, rgb: &[u8]) -> Result<()>;
+
+    /// Completes the file. Without this call there is none.
+    ///
+    /// # Errors
+    /// As [`Animation::add`].
+    fn finish(self: Box<Self>) -> Result<()>;
+}

@@ -1,0 +1,75 @@
+//! The start of a simulation: a step that is certain to fail is refused before it is taken.
+
+use super::stability::{may_become_unstable, unstable_at_rest};
+use crate::session::Session;
+use drape::cloth::Points;
+use drape::diagnostics::stability::Stability;
+use drape::error::{Error, Kind, Result};
+use drape::scene::Scene;
+use drape::simulation::{Simulation, Unresolved};
+
+/// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
+/// blow up is refused, unless that is allowed, and one that may blow up behind the stretch limit is
+/// watched by a ledger.
+///
+/// # Errors
+/// [`Kind::Unstable`] for such a cloth; otherwise as [`Simulation::new`].
+pub(crate) fn start(
+    scene: &Scene,
+    frames: u64,
+    allow_unstable: bool,
+    session: &Session,
+) -> Result<Simulation> {
+    start_from(scene, frames, None, allow_unstable, session)
+}
+
+/// As [`start`], with the points at `x` if that is given.
+///
+/// # Errors
+/// As [`start`] and [`Simulation::starting_at`].
+pub(crate) fn start_from(
+    scene: &Scene,
+    frames: u64,
+    x: Option<&Points>,
+    allow_unstable: bool,
+    session: &Session,
+) -> Result<Simulation> {
+    let mut simulation = Simulation::starting_at(scene, x)?;
+    if allow_unstable {
+        simulation.allow_unstable();
+    }
+    if let Some(cloth) = scene.cloth.as_ref().filter(|_| frames > 0) {
+        if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
+            return Err(error);
+        }
+        let Some(stability) = Stability::of_bounded(cloth, &scene.sim)? else { return Ok(simulation) };
+        if stability.is_unstable_at_rest() {
+            let error = unstable_at_rest(&stability, cloth.ks, scene.sim.steps_per_frame);
+            if !allow_unstable {
+                return Err(error);
+            }
+            session.ui.note(&format!("warning: {error}"));
+        } else if !stability.is_always_stable() {
+            session
+                .ui
+                .note(&format!("warning: {}", may_become_unstable(&stability, scene.sim.steps_per_frame)));
+            if !allow_unstable && scene.sim.stretch_limit.is_some() {
+                simulation.record_ledger()?;
+            }
+        }
+    }
+    Ok(simulation)
+}
+
+/// The error of a step that is too short for numbers to tell its two ends apart.
+fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
+    let Unresolved { point: (i, j), axis, fall, rounding } = simulation.unresolved(time)?;
+    let axis = ["x", "y", "z"][axis];
+    let message = format!(
+        "stuck before the first step: gravity moves point ({i}, {j}) by {fall:.3e} m along {axis} in a step, \
+         and its position is rounded to {rounding:.3e} m"
+    );
+    let help =
+        "lower steps_per_frame or fps, or bring the cloth nearer to the origin; --allow-unstable runs on";
+    Some(Error::new(Kind::Unstable, message).with_help(help))
+}

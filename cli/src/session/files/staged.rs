@@ -1,0 +1,97 @@
+//! A file that is written piece by piece and appears as a whole.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::atomic::{self, persist, temporary_beside};
+use super::target::{Target, failed, target};
+use drape::error::Result;
+
+/// A temporary file that takes its place in [`Staged::finish`], and is gone if that is never called.
+#[derive(Debug)]
+pub(crate) struct Staged {
+    path: PathBuf,
+    temporary: NamedTempFile,
+}
+
+impl Staged {
+    /// A file for `path`, which stays as it is until [`Staged::finish`].
+    ///
+    /// # Errors
+    /// As [`atomic::write`].
+    pub(crate) fn create(path: &Path) -> Result<Self> {
+        let temporary = match target(path)? {
+            Target::File(file) => temporary_beside(&file),
+            Target::Stdout | Target::Stream(_) => NamedTempFile::new(),
+        };
+        let temporary = temporary.map_err(|e| failed(path, &e))?;
+        Ok(Self { path: path.to_path_buf(), temporary })
+    }
+
+    /// The file to write to.
+    ///
+    /// # Errors
+    /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be opened once more.
+    pub(crate) fn file(&self) -> Result<File> {
+        self.temporary.reopen().map_err(|e| self.failed(&e))
+    }
+
+    /// Where the temporary file is, for another program to write to.
+    pub(crate) fn temporary(&self) -> &Path {
+        self.temporary.path()
+    }
+
+    /// What a failed write to [`Staged::file`] is.
+    pub(crate) fn failed(&self, cause: &io::Error) -> drape::error::Error {
+        failed(&self.path, cause)
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// As [`atomic::write`].
+    pub(crate) fn finish(self) -> Result<()> {
+        let Self { path, temporary } = self;
+        let Target::File(file) = target(&path)? else {
+            let bytes = fs::read(temporary.path()).map_err(|e| failed(&path, &e))?;
+            return atomic::write(&path, &bytes);
+        };
+        persist(temporary, &file).map_err(|e| failed(&path, &e))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    #[test]
+    fn a_file_appears_whole_or_not_at_all() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("out");
+        fs::write(&path, "old").unwrap();
+        for finishes in [false, true] {
+            let staged = Staged::create(&path).unwrap();
+            staged.file().unwrap().write_all(b"new").unwrap();
+            assert_eq!(fs::read(&path).unwrap(), b"old");
+            if finishes {
+                staged.finish().unwrap();
+            } else {
+                drop(staged);
+            }
+            assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file stays");
+        }
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_device_gets_the_bytes() {
+        let staged = Staged::create(Path::new("/dev/full")).unwrap();
+        staged.file().unwrap().write_all(b"x").unwrap();
+        assert_eq!(staged.finish().unwrap_err().kind, drape::error::Kind::Io);
+    }
+}

@@ -1,0 +1,84 @@
+//! What a path on the command line stands for: a file, a device or pipe, or standard output (`-`).
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use drape::error::{Error, Kind, Result};
+
+/// The number of the signal for a pipe whose reader has gone.
+pub(crate) const SIGPIPE: u8 = 13;
+
+/// What a file holds, as far as a terminal cares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Content {
+    /// Lines of text, welcome on a terminal.
+    Text,
+    /// Bytes that would garble a terminal.
+    Binary,
+}
+
+/// Where bytes go once links are followed.
+pub(crate) enum Target {
+    /// Standard output.
+    Stdout,
+    /// A device or pipe, which cannot be replaced.
+    Stream(PathBuf),
+    /// A regular file, there or not.
+    File(PathBuf),
+}
+
+/// Whether `path` stands for standard output.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Follows links and tells regular files from devices. A link to nothing names the file to make.
+///
+/// # Errors
+/// [`Kind::Io`] when `path` is a folder or cannot be followed.
+pub(crate) fn target(path: &Path) -> Result<Target> {
+    if is_stdout(path) {
+        return Ok(Target::Stdout);
+    }
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(is_folder(path)),
+        Ok(found) if found.is_file() => {
+            fs::canonicalize(path).map(Target::File).map_err(|e| failed(path, &e))
+        }
+        Ok(_) => Ok(Target::Stream(path.to_path_buf())),
+        Err(_) if ends_with_separator(path) => Err(is_folder(path)),
+        // A chain of links that never ends is not reported as absent, so this recursion does.
+        Err(e) if e.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
+            Ok(link) => target(&folder(path).join(link)),
+            Err(_) => Ok(Target::File(path.to_path_buf())),
+        },
+        Err(e) => Err(failed(path, &e)),
+    }
+}
+
+fn ends_with_separator(path: &Path) -> bool {
+    path.as_os_str().as_encoded_bytes().last().is_some_and(|&byte| std::path::is_separator(byte.into()))
+}
+
+/// The folder that holds the file named by `path`; `.` for a bare file name.
+pub(crate) fn folder(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn is_folder(path: &Path) -> Error {
+    Error::new(Kind::Io, format!("cannot write `{}`: it is a folder", path.display()))
+        .with_help("name a file in it")
+}
+
+/// The error of a failed write. A reader that has gone away counts as the signal for that.
+pub(crate) fn failed(path: &Path, cause: &io::Error) -> Error {
+    if cause.kind() == io::ErrorKind::BrokenPipe {
+        return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
+    }
+    let error = Error::new(Kind::Io, format!("cannot write `{}`: {cause}", path.display()));
+    if !is_stdout(path) && !folder(path).exists() {
+        return error.with_help(format!("the folder `{}` does not exist", folder(path).display()));
+    }
+    error
+}

