@@ -55,6 +55,8 @@
 //! of integers, and of [`math`], one pinned source for every other function. Nothing is fused or
 //! reordered; work is divided into chunks of fixed size whose results do not depend on each other.
 
+#![forbid(unsafe_code)]
+
 pub mod error;
 pub mod math;
 pub mod lanes;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::args::frames::Frames;
-use crate::args::scene::{Leniency, SceneArgs, frame_at};
+use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::progress::{Progress, Tally};
@@ -32,7 +32,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]
-    leniency: Leniency,
+    stability: StabilityArgs,
 }
 
 /// Compares and prints; a difference beyond the tolerance is an error of [`Kind::Difference`].
@@ -75,7 +75,7 @@ impl Args {
         session: &Session,
     ) -> Result<Vec<Ours>> {
         let last_frame = first_frame + count as u64 - 1;
-        let simulation = start_from(scene, last_frame, start, self.leniency.allow_unstable, session)?;
+        let simulation = start_from(scene, last_frame, start, self.stability.allow_unstable, session)?;
         let mut progress = Progress::new(&session.ui, "simulating", last_frame);
         Ours::simulate(simulation, first_frame, count, |simulation| {
             progress.set(simulation.frame());

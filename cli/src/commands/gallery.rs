@@ -1,4 +1,4 @@
-//! `drape gallery`: every figure of the report, and a page of them.
+//! `drape gallery`: every figure of the report, and a page that shows them.
 
 use std::path::PathBuf;
 
@@ -19,32 +19,32 @@ use drape_lab::gallery::table::{Picture, parts_called};
 /// The name of the page.
 const INDEX: &str = "index.html";
 
-/// What `gallery` takes.
+/// The arguments of `gallery`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder for the pictures and index.html
+    /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Make this figure, or if none is called so all whose names begin so, such as `part5`, repeatable (default: all
-    /// 51, in 56 pictures, since five have another beside them); the page then shows no other
+    /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
+    /// repeatable (default: all 51 figures, in 56 pictures: five figures have a second picture beside them)
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Width and height of the pictures in pixels (default: the report's 1024x800)
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
-    /// Write the pictures alone: no page and no energy ledger, which takes three quarters of the time
+    /// Write only the pictures: no page, and no energy ledger, which takes three quarters of the time
     #[arg(long)]
     pictures: bool,
 }
 
-/// What was made.
+/// The summary.
 #[derive(Serialize)]
 struct Summary<'a> {
     folder: String,
     pictures: Vec<Made<'a>>,
 }
 
-/// One picture that was made.
+/// One picture.
 #[derive(Serialize)]
 struct Made<'a> {
     name: &'a str,
@@ -52,7 +52,7 @@ struct Made<'a> {
     state: State,
 }
 
-/// Makes the pictures, then writes them and the page.
+/// Draws all pictures, then writes them and the page.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let parts = parts_called(&args.only)?;
     let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
@@ -104,13 +104,13 @@ fn read(picture: &Picture) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
     let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
     let mut scene = render.scene.load_stock()?;
-    render.look.apply(&mut scene);
+    render.render.apply(&mut scene);
     let until = render.moment.until(&scene);
     if until.rest {
         return Err(wrong("its moment is known only at the end".to_owned()));
     }
-    let allow_unstable = render.moment.leniency.allow_unstable;
-    Ok(Shot { scene, options: render.look.options(false), frame: until.frames, allow_unstable })
+    let allow_unstable = render.moment.stability.allow_unstable;
+    Ok(Shot { scene, options: render.render.options(false), frame: until.frames, allow_unstable })
 }
 
 /// Takes the pictures and tells how far it is.

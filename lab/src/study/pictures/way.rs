@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::extent::Extent;
 use drape::render::{Options, Shading};
-use drape::scene::{Collider, Filter, Plan, Scene};
+use drape::scene::{Collider, Filter, Images, Scene};
 
 /// A way to draw the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,8 +56,7 @@ impl Way {
 
 /// Every way that makes a difference for `scene`, in groups of four that differ in the samples alone.
 pub(super) fn ways(scene: &Scene, extent: &Extent) -> Vec<Way> {
-    let plan = Plan::of(scene);
-    let reads = !plan.textures.is_empty() || !plan.environments.is_empty();
+    let reads = !Images::of(scene).is_empty();
     let filters = if reads { vec![Some(false), Some(true)] } else { vec![None] };
     let resolutions = if scene.spheres().next().is_none() {
         vec![None]

@@ -3,32 +3,30 @@
 use std::collections::BTreeMap;
 use std::iter;
 
-use super::format::Node;
-use super::report::{Finding, Report};
-use super::source::Span;
-use super::words::enumerated;
-use super::{Cloth, ColliderKind, Damping, Integrator, Precision, Scene, SelfCollision, Start};
-
-/// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
-pub const MAX_POINTS: usize = 1 << 22;
+use super::json::diagnostic::Diagnostics;
+use super::json::finding::Finding;
+use super::json::node::Node;
+use super::json::span::Span;
+use super::json::text::enumerated;
+use super::{Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Precision, Scene, SelfCollision, Start};
 
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
 
-/// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
-/// primitives than the rasteriser can number (see `raster::assemble`).
-pub const MAX_RESOLUTION: u32 = 1000;
+/// Makes every check of `scene`, read from `document`, whose values were read without an error.
+pub(super) fn validate(diagnostics: &mut Diagnostics, document: &Node, scene: &Scene) {
+    Checks { diagnostics, document, scene }.run();
+}
 
 /// A scene that was read from `document`, under check.
-pub(super) struct Checks<'a> {
-    pub(super) report: &'a mut Report,
-    pub(super) document: &'a Node,
-    pub(super) scene: &'a Scene,
+struct Checks<'a> {
+    diagnostics: &'a mut Diagnostics,
+    document: &'a Node,
+    scene: &'a Scene,
 }
 
 impl Checks<'_> {
-    /// Makes every check whose values were read without an error.
-    pub(super) fn run(mut self) {
+    fn run(mut self) {
         if let Some(cloth) = &self.scene.cloth {
             self.point_count(cloth);
             self.pins(cloth);
@@ -61,7 +59,7 @@ impl Checks<'_> {
         }
         let mut first = BTreeMap::new();
         for (i, &[x, y]) in cloth.pinned.iter().enumerate() {
-            if self.report.is_full() {
+            if self.diagnostics.is_full() {
                 return;
             }
             let on_grid = self.pin_on_axis(i, 0, x, cloth.num_width_points, W)
@@ -123,7 +121,7 @@ impl Checks<'_> {
             spacing / 2.0
         ));
         if let Some(place) = self.span("cloth.thickness") {
-            self.report.warn(finding.at(place, "half the distance that self-collision keeps"));
+            self.diagnostics.warn(finding.at(place, "half the distance that self-collision keeps"));
         }
     }
 
@@ -201,14 +199,14 @@ impl Checks<'_> {
     }
 
     fn error(&mut self, place: Option<Span>, label: &str, finding: Finding) {
-        self.report.error(match place {
+        self.diagnostics.error(match place {
             Some(place) => finding.at(place, label),
             None => finding,
         });
     }
 
     fn clean(&self, keys: &[&str]) -> bool {
-        keys.iter().all(|key| self.report.clean(key))
+        keys.iter().all(|key| self.diagnostics.clean(key))
     }
 
     fn span(&self, path: &str) -> Option<Span> {

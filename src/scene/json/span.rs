@@ -4,29 +4,29 @@ use std::rc::Rc;
 
 /// A stretch of one source: byte offsets `start..end` of the text with number `source`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Span {
-    pub(super) source: usize,
-    pub(super) start: usize,
-    pub(super) end: usize,
+pub(crate) struct Span {
+    pub(crate) source: usize,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 impl Span {
     /// The first byte alone: where a long object or list starts.
-    pub(super) fn first(self) -> Self {
+    pub(crate) fn first(self) -> Self {
         Self { end: self.end.min(self.start + 1), ..self }
     }
 }
 
 /// One text with the name that errors give it.
 #[derive(Debug)]
-pub(super) struct Source {
-    pub(super) name: String,
-    pub(super) text: Rc<str>,
+pub(crate) struct Source {
+    pub(crate) name: String,
+    pub(crate) text: Rc<str>,
 }
 
 impl Source {
     /// One-based line, and one-based column in characters, of the byte offset `at`.
-    pub(super) fn line_column(&self, at: usize) -> (usize, usize) {
+    pub(crate) fn line_column(&self, at: usize) -> (usize, usize) {
         let before = self.text.get(..at).unwrap_or(&self.text);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
@@ -34,7 +34,7 @@ impl Source {
     }
 
     /// The whole lines that hold `start..end`, without the last line's end: their offset and text.
-    pub(super) fn lines_around(&self, start: usize, end: usize) -> (usize, &str) {
+    pub(crate) fn lines_around(&self, start: usize, end: usize) -> (usize, &str) {
         let from = self.text.get(..start).and_then(|t| t.rfind('\n')).map_or(0, |i| i + 1);
         let rest = self.text.get(end..).unwrap_or("");
         let to = end + rest.find('\n').unwrap_or(rest.len());
@@ -42,7 +42,7 @@ impl Source {
     }
 
     /// The text of a span, cut off where its first line ends.
-    pub(super) fn first_line(&self, span: Span) -> &str {
+    pub(crate) fn first_line(&self, span: Span) -> &str {
         let text = self.text.get(span.start..span.end).unwrap_or("");
         text.split(['\n', '\r']).next().unwrap_or(text)
     }

@@ -1,53 +1,53 @@
 //! Rules for lists, and for values that may be `null`.
 
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-use super::Vec3;
-use super::format::Json;
+use super::node::Json;
 use super::range::{Range, SMALLEST};
 use super::rule::{At, Rule};
-use super::scalar::{Count, Number, whole};
+use super::scalar::{Count, whole};
 
 /// Three numbers under one rule.
 #[derive(Clone, Copy)]
-pub(super) struct Vector(pub(super) Range);
+pub(crate) struct Vector(pub(crate) Range);
 
 impl Rule for Vector {
-    type Value = Vec3;
+    type Value = Vector3<f64>;
 
     fn words(&self) -> String {
-        format!("a list of 3 numbers {}", self.0.words())
+        format!("a list of 3 numbers {}", self.0.bounds())
     }
 
-    fn read(&self, at: &mut At) -> Option<Vec3> {
-        at.items(&self.words(), |at, _| Number(self.0).read(at)).map(Vec3::from)
+    fn read(&self, at: &mut At) -> Option<Vector3<f64>> {
+        at.items(&self.words(), |at, _| self.0.read(at)).map(Vector3::from)
     }
 
     fn schema(&self) -> Value {
-        list(3, &Number(self.0).schema())
+        list(3, &self.0.schema())
     }
 
-    fn json(&self, value: &Vec3) -> Value {
-        value.iter().map(|number| Number(self.0).json(number)).collect()
+    fn json(&self, value: &Vector3<f64>) -> Value {
+        value.iter().map(|number| self.0.json(number)).collect()
     }
 
-    fn stand_in(&self) -> Vec3 {
-        Vec3::zeros()
+    fn placeholder(&self) -> Vector3<f64> {
+        Vector3::zeros()
     }
 }
 
 /// Three numbers under one rule, of which at least one is not 0: it is divided by its length.
 #[derive(Clone, Copy)]
-pub(super) struct Direction(pub(super) Range);
+pub(crate) struct Direction(pub(crate) Range);
 
 impl Rule for Direction {
-    type Value = Vec3;
+    type Value = Vector3<f64>;
 
     fn words(&self) -> String {
         format!("{}, not all 0", Vector(self.0).words())
     }
 
-    fn read(&self, at: &mut At) -> Option<Vec3> {
+    fn read(&self, at: &mut At) -> Option<Vector3<f64>> {
         let vector = Vector(self.0).read(at)?;
         if vector.amax() >= SMALLEST {
             return Some(vector);
@@ -61,35 +61,33 @@ impl Rule for Direction {
         schema
     }
 
-    fn json(&self, value: &Vec3) -> Value {
+    fn json(&self, value: &Vector3<f64>) -> Value {
         Vector(self.0).json(value)
     }
 
-    fn stand_in(&self) -> Vec3 {
-        Vec3::zeros()
+    fn placeholder(&self) -> Vector3<f64> {
+        Vector3::zeros()
     }
 }
 
-/// Two counts, each with its own rule.
+/// Two counts, each under its own rule.
 #[derive(Clone, Copy)]
-pub(super) struct Counts(pub(super) [Count; 2]);
+pub(crate) struct Counts(pub(crate) Count<u32>, pub(crate) Count<u32>);
 
 impl Rule for Counts {
     type Value = [u32; 2];
 
     fn words(&self) -> String {
-        format!(
-            "a list of 2 whole numbers: {} to {}, {} to {}",
-            self.0[0].0, self.0[0].1, self.0[1].0, self.0[1].1
-        )
+        let Self(Count(a, b), Count(c, d)) = self;
+        format!("a list of 2 whole numbers: {a} to {b}, {c} to {d}")
     }
 
     fn read(&self, at: &mut At) -> Option<[u32; 2]> {
-        at.items(&self.words(), |at, i| self.0[i].read(at))
+        at.items(&self.words(), |at, i| [self.0, self.1][i].read(at))
     }
 
     fn schema(&self) -> Value {
-        let counts = self.0.map(|count| count.schema());
+        let counts = [self.0.schema(), self.1.schema()];
         json!({ "type": "array", "prefixItems": counts, "minItems": 2, "maxItems": 2 })
     }
 
@@ -97,28 +95,24 @@ impl Rule for Counts {
         json!(value)
     }
 
-    fn stand_in(&self) -> [u32; 2] {
-        self.0.map(|count| count.0)
+    fn placeholder(&self) -> [u32; 2] {
+        [self.0.0, self.1.0]
     }
 }
 
-/// A list of grid points `[x, y]`; whether they lie on the grid is checked later.
+/// A list of grid points `[x, y]`; whether they lie on the grid is checked with the whole document.
 #[derive(Clone, Copy)]
-pub(super) struct GridPoints;
+pub(crate) struct GridPoints;
 
 impl Rule for GridPoints {
-    type Value = Vec<[i64; 2]>;
+    type Value = Vec<[usize; 2]>;
 
     fn words(&self) -> String {
         "a list of grid points [x, y]".into()
     }
 
-    fn read(&self, at: &mut At) -> Option<Vec<[i64; 2]>> {
-        let Json::List(points) = &at.node.json else { return at.wrong_type(&self.words()) };
-        let read = &mut |at: &mut At, _| at.items("a grid point [x, y]", |at, _| grid_index(at));
-        let points: Vec<Option<[i64; 2]>> =
-            points.iter().enumerate().map(|(i, point)| at.item(i, point, read)).collect();
-        points.into_iter().collect()
+    fn read(&self, at: &mut At) -> Option<Vec<[usize; 2]>> {
+        at.list(&self.words(), |at, _| at.items("a grid point [x, y]", |at, _| grid_index(at)))
     }
 
     fn schema(&self) -> Value {
@@ -126,19 +120,21 @@ impl Rule for GridPoints {
         json!({ "type": "array", "items": points, "uniqueItems": true })
     }
 
-    fn json(&self, value: &Vec<[i64; 2]>) -> Value {
+    fn json(&self, value: &Vec<[usize; 2]>) -> Value {
         json!(value)
     }
 
-    fn stand_in(&self) -> Vec<[i64; 2]> {
+    fn placeholder(&self) -> Vec<[usize; 2]> {
         Vec::new()
     }
 }
 
-fn grid_index(at: &mut At) -> Option<i64> {
+/// A whole number; a negative one becomes one that lies on no grid.
+fn grid_index(at: &mut At) -> Option<usize> {
     let words = "a whole number";
     let Json::Number(value) = at.node.json else { return at.wrong_type(words) };
-    whole(value).or_else(|| at.not_allowed("scene::out_of_range", words, ""))
+    let index = whole(value).map(|index| usize::try_from(index).unwrap_or(usize::MAX));
+    index.or_else(|| at.not_allowed("scene::out_of_range", words, ""))
 }
 
 /// The schema of a list of `length` values.
@@ -148,7 +144,7 @@ fn list(length: usize, items: &Value) -> Value {
 
 /// The rule, or `null` for none.
 #[derive(Clone, Copy)]
-pub(super) struct OrNull<R>(pub(super) R);
+pub(crate) struct OrNull<R>(pub(crate) R);
 
 impl<R: Rule> Rule for OrNull<R> {
     type Value = Option<R::Value>;
@@ -172,7 +168,7 @@ impl<R: Rule> Rule for OrNull<R> {
         value.as_ref().map_or(Value::Null, |value| self.0.json(value))
     }
 
-    fn stand_in(&self) -> Option<R::Value> {
+    fn placeholder(&self) -> Option<R::Value> {
         None
     }
 }

@@ -5,10 +5,12 @@ use jsonc_parser::common::{Range, Ranged};
 use jsonc_parser::errors::{ParseError, ParseErrorKind};
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
+use super::diagnostic::Diagnostics;
+use super::finding::Finding;
+use super::node::{Json, Member, Node};
 use super::path::{Path, Step};
-use super::report::{Finding, Report};
-use super::source::Span;
-use super::words::shown;
+use super::span::Span;
+use super::text::shown;
 
 /// Deepest nesting of objects and lists that is read; a scene needs four.
 const MOST_LEVELS: usize = 64;
@@ -27,63 +29,14 @@ const STRICT: ParseOptions = ParseOptions {
     allow_extended_string_escapes: false,
 };
 
-/// A JSON value and where it stands.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
-    pub(super) span: Span,
-    pub(super) json: Json,
-}
-
-/// A JSON value. Numbers are the nearest binary64 (infinite if beyond its range).
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Json {
-    Null,
-    Bool(bool),
-    Number(f64),
-    Text(String),
-    List(Vec<Node>),
-    Object(Vec<Member>),
-}
-
-/// A key of an object with its value.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Member {
-    pub(super) key: String,
-    pub(super) key_span: Span,
-    pub(super) value: Node,
-}
-
-impl Node {
-    /// What the value is, in plain words.
-    pub(super) fn kind(&self) -> &'static str {
-        match self.json {
-            Json::Null => "null",
-            Json::Bool(_) => "true or false",
-            Json::Number(_) => "a number",
-            Json::Text(_) => "text",
-            Json::List(_) => "a list",
-            Json::Object(_) => "an object",
-        }
-    }
-
-    /// The value at a dotted path such as `cloth.pinned.0`.
-    pub(super) fn get(&self, path: &str) -> Option<&Self> {
-        path.split('.').try_fold(self, |node, step| match &node.json {
-            Json::Object(members) => members.iter().find(|m| m.key == step).map(|m| &m.value),
-            Json::List(items) => items.get(step.parse::<usize>().ok()?),
-            _ => None,
-        })
-    }
-}
-
 /// Reads the part of a source from byte `start` on as one JSON value.
 ///
-/// Duplicate keys are reported and the first one is kept. Returns nothing, after a report, if the
+/// Duplicate keys are reported and the first one is kept. Returns nothing, after an error, if the
 /// text is not JSON.
-pub(super) fn parse(report: &mut Report, source: usize, start: usize) -> Option<Node> {
-    let whole = report.sources.get(source)?.text.clone();
+pub(crate) fn parse(diagnostics: &mut Diagnostics, source: usize, start: usize) -> Option<Node> {
+    let whole = diagnostics.sources.get(source)?.text.clone();
     let text = whole.get(start..).unwrap_or("");
-    let mut tree = Tree { report, source, start };
+    let mut tree = Tree { diagnostics, source, start };
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
         Err(error) => tree.syntax_error(&error),
         Ok(parsed) => match (parsed.value, loose_character(text)) {
@@ -96,7 +49,7 @@ pub(super) fn parse(report: &mut Report, source: usize, start: usize) -> Option<
 
 /// Builds the tree of one source.
 struct Tree<'a> {
-    report: &'a mut Report,
+    diagnostics: &'a mut Diagnostics,
     source: usize,
     start: usize,
 }
@@ -156,12 +109,12 @@ impl Tree<'_> {
             .key(key)
             .also(Some(first), "first given here")
             .help("keep one of the two");
-        self.report.error(finding);
+        self.diagnostics.error(finding);
     }
 
     fn too_deep<T>(&mut self, span: Span) -> Option<T> {
         let label = format!("nested deeper than {MOST_LEVELS} levels");
-        self.report.error(Finding::new("scene::syntax", "nested too deeply").at(span.first(), label));
+        self.diagnostics.error(Finding::new("scene::syntax", "nested too deeply").at(span.first(), label));
         None
     }
 
@@ -174,7 +127,7 @@ impl Tree<'_> {
 
     fn not_json<T>(&mut self, range: Range, reason: &str) -> Option<T> {
         let span = self.span(range);
-        self.report
+        self.diagnostics
             .error(Finding::new("scene::syntax", format!("not valid JSON: {reason}")).at(span, "here"));
         None
     }
@@ -228,10 +181,10 @@ mod tests {
     use proptest::prelude::*;
 
     fn read(text: &str) -> (Option<Node>, Vec<crate::error::Diagnostic>) {
-        let mut report = Report::default();
-        let source = report.add_source("x.json", text);
-        let node = parse(&mut report, source, 0);
-        (node, report.finish().err().map(|error| error.diagnostics).unwrap_or_default())
+        let mut diagnostics = Diagnostics::default();
+        let source = diagnostics.add_source("x.json", text);
+        let node = parse(&mut diagnostics, source, 0);
+        (node, diagnostics.finish().err().map(|error| error.diagnostics).unwrap_or_default())
     }
 
     #[test]

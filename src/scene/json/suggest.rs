@@ -1,13 +1,13 @@
 //! The known name nearest to a mistyped one.
 
 /// "did you mean `damping`?" if a known name is really near.
-pub(super) fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+pub(crate) fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     nearest(name, known).map(|near| format!("did you mean `{near}`?"))
 }
 
 /// The known name with the fewest typing mistakes between, letter case aside: at most one mistake
 /// for every four letters, and none in names shorter than three.
-pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     const LONGEST: usize = 64;
     let name = name.to_lowercase();
     let letters = name.chars().count();
