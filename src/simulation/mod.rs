@@ -2,6 +2,8 @@
 
 mod blow_up;
 mod checks;
+#[cfg(test)]
+mod levels;
 mod ledger_recorder;
 mod observer;
 mod phase;
