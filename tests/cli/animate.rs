@@ -39,7 +39,7 @@ fn pictures_of_the_background_alone_are_warned_of() {
     let scratch = Scratch::new();
     let said = |more: &[&str]| animate(&scratch, "a.gif", &[&["--frames", "0..2"], more].concat()).stderr;
     let away = ["--set", "camera.target=[50,0,0]"];
-    assert!(said(&away).contains("warning: nothing is seen in the pictures"), "{}", said(&away));
+    assert!(said(&away).contains("warning: no object is visible in the pictures"), "{}", said(&away));
     assert_eq!(said(&[&away[..], &["-q"]].concat()), "");
     assert!(!said(&[]).contains("warning"), "{}", said(&[]));
 }

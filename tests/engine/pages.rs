@@ -26,7 +26,7 @@ fn top() -> std::path::PathBuf {
 fn pages() -> Vec<String> {
     let entries = fs::read_dir(top().join("docs")).unwrap().map(|entry| entry.unwrap().file_name());
     let names = entries.map(|name| format!("docs/{}", name.to_string_lossy()));
-    let others = ["README.md", "CONTRIBUTING.md", "tests/README.md"].map(str::to_owned);
+    let others = ["README.md", "CONTRIBUTING.md"].map(str::to_owned);
     names.filter(|name| name.ends_with(".md")).chain(others).collect()
 }
 
