@@ -14,7 +14,7 @@ use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, Difference, difference_picture};
 use drape::output::png::{self, Effort, Pixels};
-use drape_lab::page::{self, html};
+use drape_lab::page::{self, comparison::Row};
 
 /// The arguments of `compare`.
 #[derive(clap::Args)]
@@ -210,7 +210,7 @@ fn verdict(same: bool, message: impl Fn() -> String) -> Result<()> {
 
 fn row(comparison: &Comparison, pictures: &[Pixels; 2]) -> Result<String> {
     let [expected, actual] = pictures;
-    html::row(&html::Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] })
+    Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] }.html()
 }
 
 fn shown(path: impl AsRef<Path>) -> String {

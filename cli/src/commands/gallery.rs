@@ -12,9 +12,9 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
-use drape_lab::gallery::page::{self, Entry};
+use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
-use drape_lab::gallery::table::{Part, Picture, parts};
+use drape_lab::gallery::table::{Picture, parts_called};
 
 /// The name of the page.
 const INDEX: &str = "index.html";
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
+    /// Draw and show only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
     /// repeatable (default: all 51 figures, in 56 pictures: five figures have a second picture beside them)
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
@@ -54,7 +54,7 @@ struct Made<'a> {
 
 /// Draws all pictures, then writes them and the page.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let parts = args.parts()?;
+    let parts = parts_called(&args.only)?;
     let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
     let shots = pictures.iter().map(|picture| args.shot(picture)).collect::<Result<Vec<Shot>>>()?;
     let files: Vec<PathBuf> =
@@ -69,33 +69,13 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         atomic::write(file, &shown.png)?;
     }
     if !args.pictures {
-        atomic::write(&index, text(&parts, &shots, &shown).as_bytes())?;
+        atomic::write(&index, page::page(&parts, &shots, &shown).as_bytes())?;
     }
     let figures = parts.iter().map(|part| part.figures.len()).sum();
     args.finish(figures, &pictures, &shown, session)
 }
 
 impl Args {
-    /// The chosen figures.
-    fn parts(&self) -> Result<Vec<Part>> {
-        let mut parts = parts()?;
-        let names: Vec<String> =
-            parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
-        let is_asked = |figure: &str, text: &String| {
-            figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
-        };
-        if let Some(text) = self.only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
-            let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
-            return Err(error.with_help(format!("the figures are {}", names.join(", "))));
-        }
-        if !self.only.is_empty() {
-            for part in &mut parts {
-                part.figures.retain(|figure| self.only.iter().any(|text| is_asked(figure.name(), text)));
-            }
-        }
-        Ok(parts)
-    }
-
     fn shot(&self, picture: &Picture) -> Result<Shot> {
         let mut shot = read(picture)?;
         shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
@@ -145,41 +125,15 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
     Ok(shown)
 }
 
-/// The page of all that was made.
-fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
-    let mut made = shots.iter().zip(shown);
-    let mut entry = |figure| Entry::new(figure, &mut made);
-    let parts: Vec<_> =
-        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
-    page::page(&parts)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use drape::diagnostics::stability::Stability;
+    use drape_lab::gallery::table::parts;
 
     fn pictures() -> Vec<Picture> {
         let parts = parts().unwrap();
         parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
-    }
-
-    #[test]
-    fn figures_are_picked_by_their_name_or_its_beginning() {
-        let picked = |only: &[&str]| {
-            let only = only.iter().map(|&name| name.to_owned()).collect();
-            let args = Args { out: PathBuf::new(), only, size: None, pictures: false };
-            let parts = args.parts().map_err(|e| e.kind)?;
-            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
-        };
-        let part5 = picked(&["part5"]).unwrap();
-        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
-        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
-        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
-        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
-        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
-        assert_eq!(picked(&[]).unwrap().len(), 51);
-        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
     }
 
     /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.

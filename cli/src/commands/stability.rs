@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 impl Args {
     fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
         let axes = self.axes();
-        let total = axes.pieces() + extremes::len();
+        let total = axes.work() + extremes::len();
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);

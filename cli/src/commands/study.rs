@@ -10,8 +10,9 @@ use crate::session::progress::Tally;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
-use drape_lab::study::matrix::{Extent, Source};
-use drape_lab::study::store::Store;
+use drape_lab::store::Store;
+use drape_lab::study::extent::Extent;
+use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
 
 /// The arguments of `study`.

@@ -1,4 +1,4 @@
-//! Mistakes that programs of students make, each run here as a changed scene or simulation.
+//! The mistakes that programs of students make, each run here as a changed scene or simulation.
 
 use std::num::Wrapping;
 
@@ -9,11 +9,11 @@ use drape::scene::{Cloth, Collider, Orientation, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
 /// A mistake, and the simulation that does what the mistaken program does.
-pub(crate) struct Mistake {
-    /// What is done instead of what.
-    pub(crate) name: String,
+pub(super) struct Mistake {
+    /// What the mistaken program does, and what it should do.
+    pub(super) name: String,
     scene: Scene,
-    /// What no scene can say.
+    /// A change that a scene cannot express.
     change: Option<Change>,
 }
 
@@ -30,7 +30,7 @@ enum Change {
 
 impl Mistake {
     /// The mistake of having another scene.
-    pub(crate) fn of(name: impl Into<String>, scene: Scene) -> Self {
+    pub(super) fn of(name: impl Into<String>, scene: Scene) -> Self {
         Self { name: name.into(), scene, change: None }
     }
 
@@ -38,7 +38,7 @@ impl Mistake {
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub(crate) fn simulation(&self, start: Option<&Points>) -> Result<Simulation> {
+    pub(super) fn simulation(&self, start: Option<&Points>) -> Result<Simulation> {
         let mut simulation = Simulation::starting_at(&self.scene, start)?;
         match self.change {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
@@ -51,8 +51,8 @@ impl Mistake {
     }
 }
 
-/// The mistakes that change anything in `scene`.
-pub(crate) fn all(scene: &Scene) -> Vec<Mistake> {
+/// The mistakes that have an effect in `scene`.
+pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
     let Some(cloth) = &scene.cloth else { return Vec::new() };
     let fits = |cloth: &Cloth| {
         cloth.pinned.iter().all(|&[i, j]| i < cloth.num_width_points && j < cloth.num_height_points)
@@ -71,7 +71,7 @@ pub(crate) fn all(scene: &Scene) -> Vec<Mistake> {
     mistakes
 }
 
-/// Mistakes that are another scene.
+/// The mistakes that a changed scene makes.
 fn scenes(scene: &Scene) -> Vec<Mistake> {
     let with = |name: &str, change: fn(&mut Scene)| {
         let mut scene = scene.clone();
@@ -135,8 +135,8 @@ fn plane_offsets(scene: &Scene) -> [Mistake; 2] {
     ]
 }
 
-/// What programs were found to tell cells apart by. Only what makes neighbouring cells one shows: the
-/// points of others are not close.
+/// Faulty hashes by which programs were found to tell cells apart. A hash shows only where it merges
+/// neighbouring cells: points of other cells are not close.
 fn cell_hashes(scene: &Scene) -> [Mistake; 2] {
     let cut = "cells by coordinates cut towards zero, not rounded down, so that those beside 0 are one";
     let sum = "cells told apart by x² + y² + z³ of coordinates cut towards zero";
@@ -153,7 +153,7 @@ fn cell_hashes(scene: &Scene) -> [Mistake; 2] {
     ]
 }
 
-/// The number that a cut towards zero gives for what rounding down gives `number`.
+/// The number that truncation gives for what rounding down gives `number`.
 fn towards_zero(number: i64) -> i64 {
     if number < 0 { number + 1 } else { number }
 }

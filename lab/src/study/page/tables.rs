@@ -1,11 +1,11 @@
 //! The tables of the page.
 
-use super::super::hull::{self, hull};
-use super::super::pictures::Pictures;
-use super::super::{Cost, PanelStudy, Study};
 use crate::page::{Cells, escape, table};
+use crate::study::findings::{Cost, PanelStudy, Study};
+use crate::study::pareto::{self, front};
+use crate::study::pictures::Pictures;
 
-/// What to use for which time per simulated second.
+/// The best choice within each budget of time per simulated second.
 pub(super) fn advice(panel: &PanelStudy) -> String {
     let points = panel.points(Cost::Wall);
     let rows = panel.advice().into_iter().map(|advice| {
@@ -15,7 +15,7 @@ pub(super) fn advice(panel: &PanelStudy) -> String {
         vec![
             format!("{} s", advice.budget),
             name,
-            format!("{}{error:.2e}", if panel.is_told(advice.use_point) { "" } else { "≤ " }),
+            format!("{}{error:.2e}", if panel.is_distinct(advice.use_point) { "" } else { "≤ " }),
             format!("{cost:.3}"),
             format!("{springs:.2e}"),
         ]
@@ -25,10 +25,10 @@ pub(super) fn advice(panel: &PanelStudy) -> String {
     table(&["pay", "use", &error, "takes (s/s)", "springs visited (1/s)"], Cells::Numbers, rows)
 }
 
-/// What to draw with for which time.
+/// The best way to draw within each budget of time.
 pub(super) fn picture_advice(pictures: &Pictures) -> String {
     let points = pictures.points();
-    let rows = hull::advice(&points).into_iter().map(|advice| {
+    let rows = pareto::advice(&points).into_iter().map(|advice| {
         let drawn = &pictures.drawn[advice.use_point];
         vec![
             format!("{} ms", advice.budget),
@@ -70,7 +70,7 @@ pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
     table(&head, Cells::Numbers, rows)
 }
 
-/// All ways of drawing.
+/// All ways to draw.
 pub(super) fn ways(pictures: &Pictures) -> String {
     let rows = pictures.drawn.iter().map(|drawn| {
         vec![
@@ -90,10 +90,10 @@ pub(super) fn ways(pictures: &Pictures) -> String {
     )
 }
 
-/// The ways whose pictures are shown: the hull, and the worst.
+/// The ways whose pictures are shown: the Pareto front, and the worst.
 pub(super) fn shown(pictures: &Pictures) -> Vec<usize> {
     let points = pictures.points();
-    let mut shown = hull(&points);
+    let mut shown = front(&points);
     shown.extend((0..points.len()).max_by(|&a, &b| points[a][1].total_cmp(&points[b][1])));
     shown.sort_unstable();
     shown.dedup();

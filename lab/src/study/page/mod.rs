@@ -3,16 +3,17 @@
 mod plots;
 mod tables;
 
-use super::matrix::{METHODS, MODEL};
+use super::findings::{Cost, PanelStudy, Study};
+use super::method::{METHODS, MODEL};
 use super::pictures::Pictures;
-use super::{Cost, PanelStudy, Study};
+use crate::page::comparison::figure;
 use crate::page::{self, escape, short};
 use drape::error::Result;
 use drape::output::compare::difference_picture;
-use drape::output::png::{self, Effort, Pixels};
+use drape::output::png::Effort;
 
-/// What the page adds to the style of every page: plots side by side where there is room, at most as
-/// large as their text is meant to be read.
+/// What the page adds to the style of every page: plots side by side where there is room, and no larger than
+/// their text needs.
 const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
 .plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}th,td.name{white-space:normal}\
 .worded th:nth-child(2),.worded td:nth-child(2){white-space:normal;text-align:left;min-width:9rem}</style>\n";
@@ -24,7 +25,7 @@ const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
 pub fn page(study: &Study, scene: &str) -> Result<String> {
     let mut text = page::head(&format!("Speed against accuracy: {scene}")) + STYLE;
     text += &format!("<p>{}</p>\n", introduction(study));
-    text += "<h2>If you can pay this, use that</h2>\n<p>Paid is wall time: per simulated second, and per picture.</p>\n";
+    text += "<h2>If you can pay this, use that</h2>\n<p>The budget is wall time: per simulated second, or per picture.</p>\n";
     for panel in &study.panels {
         text +=
             &format!("<h3>{}</h3>\n<div class=\"worded\">{}</div>\n", heading(panel), tables::advice(panel));
@@ -42,8 +43,8 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
     text += &match &study.pictures {
         Some(pictures) => picture_section(pictures)?,
         None if !study.extent.only.is_empty() => String::new(),
-        None => "<p>No pictures: lines are one pixel wide at every size, so a wireframe has no converged \
-                 picture; and a cloth that is lost cannot be drawn.</p>\n"
+        None => "<p>No pictures: a wireframe has no converged picture, since its lines are one pixel wide at every \
+                 size, and a cloth that becomes unstable cannot be drawn.</p>\n"
             .to_owned(),
     };
     Ok(text + &method_section() + page::END)
@@ -53,28 +54,27 @@ fn introduction(study: &Study) -> String {
     let times: Vec<String> =
         study.extent.tenths.iter().map(|t| format!("{}", f64::from(*t) / 10.0)).collect();
     format!(
-        "What is compared is the start of the motion alone, at {} s, without stretch limit and self-collision and \
-         with damping per second, whatever the scene says (but for methods that are named after one of these): only this model is approached by every method as its steps \
-         shrink. {}</p>\n\
-         <p>Each point is one way to move the cloth: a method and its steps per second. Across: what \
-         it costs. Up: how far its points are from where they should be, as the root of the mean squared \
-         distance. The reference is the model itself with so many steps that halving them changes less than the \
-         grey floor; an error is \
-         told from ten times the floor on; a smaller one counts as that. Times were measured one run after \
-         the other on this machine, each the median of up to {} that were interleaved; springs visited are \
-         counted and the same on every machine.{}",
+        "Compared is the start of the motion, at {} s, without stretch limit and self-collision and with damping per \
+         second, whatever the scene says: all methods approach only this model as their steps shrink. Methods that \
+         are named after one of these three options use it. {}</p>\n\
+         <p>Each point is a method at a number of steps per second. The horizontal axis is the cost. The vertical axis \
+         is the error: the root mean square distance of the points from those of the reference. The reference is the \
+         model with so many steps that halving their number changes the positions by less than the grey floor. An \
+         error below ten times the floor cannot be distinguished from that of the reference and counts as ten times \
+         the floor. Times were measured one run after the other on this machine; each is the median of up to {} \
+         interleaved repetitions. Springs visited are counted, and the same on every machine.{}",
         times.join(", "),
         cloths(study),
         study.extent.repeats,
         match study.extent.only.is_empty() {
             true => String::new(),
             false =>
-                format!(" Only runs were made that are called {}.", escape(&study.extent.only.join(" or "))),
+                format!(" Only the runs selected by {} were made.", escape(&study.extent.only.join(" or "))),
         },
     )
 }
 
-/// Why there are other cloths than that of the scene.
+/// Why other cloths than that of the scene are studied.
 fn cloths(study: &Study) -> String {
     let others = study.panels.iter().filter(|panel| panel.panel.part != 1.0);
     let others: Vec<_> = others.map(|panel| panel.panel.cloth()).collect();
@@ -82,14 +82,14 @@ fn cloths(study: &Study) -> String {
         return String::new();
     }
     format!(
-        "Besides the scene's cloth lighter ones are tried, of {}, to show what changes where the steps of Verlet's \
-         scheme get dear. k/m is the stiffness of a spring over the mass of a point: at 1/1000 of the density it is \
-         1000 times as high.",
+        "Besides the scene's cloth, lighter ones are studied, of {}: the lighter the cloth, the shorter is the longest \
+         stable step of Verlet's scheme. k/m is the stiffness of a spring over the mass of a point: at 1/1000 of the \
+         density it is 1000 times as high.",
         others.join(" and ")
     )
 }
 
-/// A panel in words.
+/// The heading of a panel.
 fn heading(panel: &PanelStudy) -> String {
     let panel = &panel.panel;
     format!(
@@ -104,20 +104,20 @@ fn heading(panel: &PanelStudy) -> String {
 fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
     let plots = [Cost::Wall, Cost::Springs].map(|cost| plots::work_precision(study, panel, cost, number));
     let [by_time, by_count] = [Cost::Wall, Cost::Springs].map(|cost| {
-        let names: Vec<_> = panel.hull(cost).into_iter().map(|i| escape(&panel.name(i))).collect();
+        let names: Vec<_> = panel.front(cost).into_iter().map(|i| escape(&panel.name(i))).collect();
         names.join(" → ")
     });
     let [coarse, fine] = panel.reference.rates;
     format!(
         "<h2>{}</h2>\n<div class=\"plots\">\n{}</div>\n\
-         <p><strong>Pareto hull</strong>: no other point is both cheaper and more accurate.</p>\n\
+         <p><strong>Pareto front</strong>: no other point is both cheaper and more accurate.</p>\n\
          <ul><li>By time: {by_time}.</li>\n<li>By springs visited: {by_count}.</li></ul>\n\
-         <p class=\"soft\">Hollow: the cloth holds more energy than the reference at some moment, by over 1 % of \
-         what the fall released: it gained it out of nothing, or its model took less out (damping per step, \
-         stretch limit). Crosses on the top edge: \
-         lost (no number any more). Not drawn: what was given up before this moment, after \
-         {:.0e} springs, or twice as many before the first moment. Grey: not told from the reference, which is Verlet with the half-step \
-         start at {fine} steps/s; the floor is its distance from {coarse} steps/s.</p>\n\
+         <p class=\"soft\">Hollow: at some moment the cloth holds more energy than the reference, by over 1 % of what the \
+         fall released. It gained energy from nothing, or its model dissipates less (damping per step, stretch limit). \
+         Crosses on the top edge: lost, a position is not a number. Not drawn: runs that were given up before this \
+         moment, after {:.0e} springs, or twice as many before the first moment. Grey: cannot be distinguished from the \
+         reference, which is Verlet with the half-step start at {fine} steps/s; the floor is its distance from \
+         {coarse} steps/s.</p>\n\
          <details><summary>All {} runs</summary>\n<div class=\"worded\">{}</div></details>\n",
         heading(panel),
         plots.concat(),
@@ -131,15 +131,15 @@ fn picture_section(pictures: &Pictures) -> Result<String> {
     let [width, height] = pictures.size();
     let (pixels, levels) = pictures.rounding()?;
     let mut text = format!(
-        "<h2>Pictures</h2>\n<p>{width} × {height} pixels at the scene's time. Across: the time to draw one. Up: the \
-         root of the mean squared difference from a converged picture (256 samples a pixel, binary64, \
-         bilinear filter), in levels of 255; grey: how far that one is from one with 64 samples. Fragment \
-         programs in binary32 instead of binary64 change at most {pixels} pixels of a picture, by at most {levels} of \
-         255.</p>\n<div class=\"plots\">\n{}</div>\n{}",
+        "<h2>Pictures</h2>\n<p>{width} × {height} pixels at the scene's time. The horizontal axis is the time to draw \
+         one. The vertical axis is the root mean square difference from a converged picture (256 samples a pixel, \
+         binary64, bilinear filter), in levels of 255; grey is the difference of that one from one with 64 samples. \
+         Fragment programs in binary32 instead of binary64 change at most {pixels} pixels of a picture, by at most \
+         {levels} of 255.</p>\n<div class=\"plots\">\n{}</div>\n{}",
         plots::pictures(pictures),
         tables::ways(pictures),
     );
-    text += &figure("converged", &pictures.converged)?;
+    text += &figure("converged", &pictures.converged, Effort::Small)?;
     let shown = tables::shown(pictures);
     for i in shown {
         let drawn = &pictures.drawn[i];
@@ -148,17 +148,15 @@ fn picture_section(pictures: &Pictures) -> Result<String> {
         text += &format!(
             "<h3>{}</h3>\n<div class=\"row\">\n{}{}</div>\n",
             escape(&drawn.way.text()),
-            figure(&format!("{:.2} ms, error {:.3} of 255", drawn.ms(), drawn.rmse), &picture)?,
-            figure("error map: black where equal, white where off by 255", &map)?,
+            figure(
+                &format!("{:.2} ms, error {:.3} of 255", drawn.ms(), drawn.rmse),
+                &picture,
+                Effort::Small
+            )?,
+            figure("error map: black where equal, white where off by 255", &map, Effort::Small)?,
         );
     }
     Ok(text)
-}
-
-fn figure(caption: &str, picture: &Pixels) -> Result<String> {
-    let bytes = png::encode(picture.width, picture.height, picture.rgba.as_flattened(), Effort::Small)?;
-    let image = page::image(caption, &bytes);
-    Ok(format!("<figure>{image}<figcaption>{}</figcaption></figure>\n", escape(caption)))
 }
 
 /// What each method changes.
@@ -172,7 +170,8 @@ fn method_section() -> String {
     };
     let rows: String = METHODS.iter().map(|method| row((method.name, code(&method.sets)))).collect();
     format!(
-        "<h2>Methods</h2>\n<p>What each sets besides the steps; use it with <code>--set</code>.</p>\n\
+        "<h2>Methods</h2>\n<p>What each method sets besides the steps, as <code>--set</code> takes it. An implicit method is stable with any \
+         number of steps, but fewer steps are not always cheaper: a longer step takes more iterations.</p>\n\
          <div class=\"wide\"><table><tr><th>method</th><th>changes</th></tr>\n{}{rows}</table></div>\n",
         row(("model", code(&MODEL.map(str::to_owned)))),
     )

@@ -1,15 +1,15 @@
-//! Work-precision plots: cost across, error up, both logarithmic.
+//! Work-precision plots: error over cost, both logarithmic.
 
-use super::super::hull::hull;
-use super::super::matrix::{METHODS, Method};
-use super::super::pictures::Pictures;
-use super::super::runs::{Measured, Outcome};
-use super::super::{Cost, PanelStudy, Study};
 use crate::page::axis::Axis;
 use crate::page::plot::{Marker, Plot, Style};
+use crate::study::findings::{Cost, PanelStudy, Study};
+use crate::study::method::{METHODS, Method};
+use crate::study::pareto::front;
+use crate::study::pictures::Pictures;
+use crate::study::runs::{Measured, Outcome};
 
-/// How the hull is drawn: a broad line under the points.
-const HULL: Style = Style { color: "--ink", marker: Marker::None, hollow: true, dashed: false, stroke: 4.0 };
+/// The Pareto front: a broad line under the points.
+const FRONT: Style = Style { color: "--ink", marker: Marker::None, hollow: true, dashed: false, stroke: 4.0 };
 
 /// The floor in the legend.
 const FLOOR: Style =
@@ -22,7 +22,7 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     let floor = panel.reference.floor.get(moment).map_or(0.0, |floor| floor.rms);
     let reached = panel.cells.iter().filter_map(|cell| Some(cell.errors.get(moment)?.rms));
     let x = Axis::decades(cost_label(cost), panel.cells.iter().map(|cell| panel.cost(cell, cost)));
-    // A cloth that was thrown kilometres away is drawn at the top edge.
+    // A cloth that flew kilometres away is drawn at the top edge.
     let y = Axis::decades("RMS error (m)", reached.map(|error| error.min(9.0)).chain([floor]));
     let mut plot =
         Plot::new(&format!("k/m = {:.2e} /s², at {time} s", panel.panel.k_over_m), x.clone(), y.clone());
@@ -36,13 +36,13 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
     );
     guides(&mut plot, &x, &y);
     let points = panel.points(cost);
-    // What holds too much energy is no choice, but it belongs to the line of its method.
+    // A run that holds too much energy is not on the front, but it belongs to the line of its method.
     let is_drawn = |cell: &Measured| {
         let error = cell.errors.get(moment).filter(|_| panel.is_compared(cell, moment));
         cell.outcome <= Outcome::EnergyAboveBound && error.is_some_and(|error| error.rms < top)
     };
-    let along: Vec<_> = panel.hull(cost).into_iter().map(|i| points[i]).collect();
-    plot.line(&along, HULL);
+    let along: Vec<_> = panel.front(cost).into_iter().map(|i| points[i]).collect();
+    plot.line(&along, FRONT);
     for (method, Method { name, .. }) in METHODS.iter().enumerate() {
         let style = Style::of_series(method);
         let cells = panel.cells.iter().enumerate().filter(|(_, cell)| cell.method == method);
@@ -59,7 +59,7 @@ pub(super) fn work_precision(study: &Study, panel: &PanelStudy, cost: Cost, numb
         }
         plot.entry(style, name);
     }
-    plot.entry(HULL, "Pareto hull");
+    plot.entry(FRONT, "Pareto front");
     plot.entry(Style::GUIDE, "slopes 1 and 2");
     plot.entry(FLOOR, "floor of the reference");
     plot.finish(&format!("p{number}{}", if cost == Cost::Wall { "wall" } else { "springs" }))
@@ -95,7 +95,7 @@ fn hint(panel: &PanelStudy, number: usize, moment: usize) -> String {
     )
 }
 
-/// Lines along which twice the cost halves or quarters the error.
+/// Lines along which doubling the cost halves or quarters the error.
 fn guides(plot: &mut Plot, x: &Axis, y: &Axis) {
     let ([left, right], [bottom, top]) = (x.range(), y.range());
     for (slope, name) in [(1.0, "slope 1"), (2.0, "slope 2")] {
@@ -104,7 +104,7 @@ fn guides(plot: &mut Plot, x: &Axis, y: &Axis) {
         let to = (from * drape::math::pow(top / bottom, 1.0 / slope)).min(right);
         let end = [to, top * drape::math::pow(from / to, slope)];
         plot.line(&[[from, top], end], Style::GUIDE);
-        // Away from the other one's text: three quarters of the way down.
+        // Three quarters of the way down, where the two texts do not overlap.
         let part = |a: f64, b: f64| a * drape::math::pow(b / a, 0.75);
         plot.note([part(from, to), part(top, end[1])], name);
     }
@@ -126,9 +126,9 @@ pub(super) fn pictures(pictures: &Pictures) -> String {
         0.8,
         "self-difference of the converged picture",
     );
-    let along: Vec<_> = hull(&points).into_iter().map(|i| points[i]).collect();
-    plot.line(&along, HULL);
-    // A series for each way but for the samples, which come in fours.
+    let along: Vec<_> = front(&points).into_iter().map(|i| points[i]).collect();
+    plot.line(&along, FRONT);
+    // A series for each group of ways that differ in the samples alone.
     for (series, ways) in pictures.drawn.chunks(4).enumerate() {
         let style = Style::of_series(series);
         let line: Vec<_> = ways.iter().map(|drawn| [drawn.ms(), drawn.rmse]).collect();
@@ -141,7 +141,7 @@ pub(super) fn pictures(pictures: &Pictures) -> String {
             plot.entry(style, first.way.text().trim_start_matches("1 sample, "));
         }
     }
-    plot.entry(HULL, "Pareto hull");
+    plot.entry(FRONT, "Pareto front");
     plot.entry(FLOOR, "floor of the reference");
     plot.finish("pictures")
 }

@@ -1,20 +1,20 @@
-//! Positions that another program wrote: raw numbers, or text.
+//! The positions that another program wrote: raw numbers, or text.
 
 use std::fs;
 use std::path::Path;
 
 use drape::error::{Error, Kind, Result};
 
-/// Point after point, x y z in metres.
-pub(crate) type State = Vec<[f64; 3]>;
+/// The positions of one frame: x y z of each point in metres, row by row.
+pub type State = Vec<[f64; 3]>;
 
-/// The states in a file, each of `width` x `height` points: f64 little-endian, or decimal numbers between
-/// spaces, commas, brackets or ends of lines. In a text, what follows `#` is not read, nor are first
+/// The states in a file, each of `width` x `height` points: f64 little-endian, or decimal numbers separated by
+/// spaces, commas, brackets or ends of lines. In a text, what follows `#` is ignored, and so are leading
 /// lines without a number.
 ///
 /// # Errors
 /// [`Kind::Io`] when the file cannot be read or does not hold whole states.
-pub(crate) fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State>> {
+pub fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State>> {
     let failed = |cause: String| Error::new(Kind::Io, format!("cannot read `{}`: {cause}", path.display()));
     let bytes = fs::read(path).map_err(|e| failed(e.to_string()))?;
     let numbers = match std::str::from_utf8(&bytes).ok().filter(|text| is_plain(text)) {
@@ -33,7 +33,7 @@ pub(crate) fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State
         let message = format!("it holds {found} points, and the scene has {width} x {height} = {points}");
         let single = bytes.len().is_multiple_of(12 * points) && !bytes.is_empty();
         let help = if single {
-            "its size is that of f32 numbers; write f64, since f32 hides all but large differences".to_owned()
+            "its size is that of f32 numbers; write f64, since f32 hides small differences".to_owned()
         } else {
             format!("a state is x y z of each of {points} points, row by row")
         };
@@ -43,7 +43,7 @@ pub(crate) fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State
     Ok(triples.chunks(points).map(<[_]>::to_vec).collect())
 }
 
-/// Whether a text has no characters but those that people write.
+/// Whether a text has no control characters but white space.
 fn is_plain(text: &str) -> bool {
     !text.chars().any(|c| c.is_control() && !c.is_whitespace())
 }
@@ -52,7 +52,7 @@ fn is_plain(text: &str) -> bool {
 fn numbers(text: &str) -> Result<Vec<f64>, String> {
     let mut numbers = Vec::new();
     for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-        // What C++ on Windows writes for a number that is none.
+        // How C++ on Windows writes NaN.
         let line = line
             .replace("(ind)", "")
             .replace("(snan)", "")

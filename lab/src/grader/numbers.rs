@@ -1,5 +1,5 @@
-//! Numbers that programs get wrong, such as another damping: each is fitted until ours comes as near to
-//! theirs as it can (Gauss-Newton with one unknown).
+//! Numbers that programs get wrong, such as damping: each is fitted so that our positions come as near to
+//! theirs as possible, by Gauss-Newton iterations with one unknown.
 
 use super::mistakes::Mistake;
 use super::states::State;
@@ -8,24 +8,24 @@ use drape::error::{Kind, Result};
 use drape::scene::{Cloth, Scene};
 use drape::simulation::Simulation;
 
-/// Most rounds of a fit.
-const ROUNDS: usize = 6;
+/// The most iterations of a fit.
+const ITERATIONS: usize = 6;
 
-/// Change of the number, as a part of it, by which its effect is measured.
+/// The relative change of the number by which its effect is measured.
 const PROBE: f64 = 1e-4;
 
-/// A fit ends when it changes the number by less than this part.
+/// A fit ends when an iteration changes the number by less than this part.
 const SETTLED: f64 = 1e-7;
 
 /// A number of a scene.
-pub(crate) struct Number {
+pub(super) struct Number {
     name: &'static str,
     of: fn(&Scene, &Cloth) -> f64,
     set: fn(&mut Scene, f64),
 }
 
-/// What is fitted. Stiffness and density act by their quotient alone, so one stands for both.
-pub(crate) const NUMBERS: [Number; 5] = [
+/// The numbers that are fitted. Stiffness and density act only by their quotient, so one stands for both.
+pub(super) const NUMBERS: [Number; 5] = [
     Number {
         name: "gravity",
         of: |scene, _| scene.sim.gravity.norm(),
@@ -49,25 +49,25 @@ pub(crate) const NUMBERS: [Number; 5] = [
     },
 ];
 
-/// Another program's state of one frame, and where ours starts.
-pub(crate) struct Target<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) cloth: &'a Cloth,
-    pub(crate) start: Option<&'a Points>,
-    pub(crate) frame: u64,
-    pub(crate) state: &'a State,
+/// The state that a number is fitted to, and the start of ours.
+pub(super) struct Target<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) cloth: &'a Cloth,
+    pub(super) start: Option<&'a Points>,
+    pub(super) frame: u64,
+    pub(super) state: &'a State,
 }
 
 impl Number {
-    /// The scene with the value at which ours comes nearest to theirs, as a mistake; nothing if the
-    /// number does not act, or no value that a scene may have helps.
+    /// The scene with the value at which ours comes nearest to theirs, as a mistake; `None` if the number has no
+    /// effect, or no valid value comes nearer.
     ///
     /// # Errors
     /// Those of the simulation, and of `watch`, which is called after every frame.
-    pub(crate) fn fit(&self, target: &Target<'_>, watch: &dyn Fn() -> Result<()>) -> Result<Option<Mistake>> {
+    pub(super) fn fit(&self, target: &Target<'_>, watch: &dyn Fn() -> Result<()>) -> Result<Option<Mistake>> {
         let right = (self.of)(target.scene, target.cloth);
         let mut value = right;
-        for _ in 0..ROUNDS {
+        for _ in 0..ITERATIONS {
             let step = PROBE * value.abs().max(PROBE);
             let [here, beside] = [value, value + step].map(|value| self.residual(target, value, watch));
             let (Some(here), Some(beside)) = (here?, beside?) else { return Ok(None) };
@@ -94,7 +94,7 @@ impl Number {
         scene
     }
 
-    /// Ours less theirs, all components, with the number at `value`; nothing if ours is lost.
+    /// Ours minus theirs, all components, with the number at `value`; `None` if ours becomes unstable.
     fn residual(
         &self,
         target: &Target<'_>,
@@ -116,7 +116,7 @@ impl Number {
     }
 }
 
-/// `value` with as few digits as a thousandth of `change` leaves it.
+/// `value` with the fewest digits that change it by at most a thousandth of `change`.
 fn shortened(value: f64, change: f64) -> f64 {
     let rounded = |digits: usize| format!("{value:.digits$e}").parse().unwrap_or(value);
     (0..17).map(rounded).find(|short| (short - value).abs() <= 1e-3 * change).unwrap_or(value)
