@@ -7,6 +7,11 @@
 
 use std::ops::Mul;
 
+use nalgebra::Vector3;
+
+/// A point or direction in metres, world space, y up.
+pub type Vec3 = Vector3<f64>;
+
 /// Sine of `x` radians; error below 1 ulp.
 pub fn sin(x: f64) -> f64 {
     libm::sin(x)

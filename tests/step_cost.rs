@@ -118,6 +118,23 @@ fn a_step_allocates_nothing() {
     }
 }
 
+/// What watches a step changes no bit of it, and takes no memory in it.
+#[test]
+fn observers_change_nothing() {
+    for scene in [everything(), scenes::self_collision()] {
+        let run = |watch: &dyn Fn(&mut Simulation)| {
+            let mut simulation = Simulation::new(&scene).unwrap();
+            watch(&mut simulation);
+            let allocations = allocation_counter::measure(|| (0..1800).for_each(|_| simulation.step()));
+            assert_eq!(allocations.count_total, 0);
+            (simulation.state_hash(), simulation.counters())
+        };
+        let plain = run(&|_| ());
+        assert_eq!(run(&Simulation::record_timings), plain, "with times");
+        assert_eq!(run(&|simulation| simulation.record_ledger().unwrap()), plain, "with a ledger");
+    }
+}
+
 #[test]
 fn a_scene_without_cloth_only_keeps_time() {
     let mut scene = everything();

@@ -1,4 +1,4 @@
-//! The grammar of the command line.
+//! The grammar of the command line: the commands, and the options of all of them.
 
 use std::io::{self, IsTerminal};
 
@@ -14,7 +14,7 @@ use crate::session::files::atomic;
 use crate::session::ui::{Color, Ui};
 use drape::error::{Error, Kind, Result};
 
-/// A reference cloth simulator and the software rasteriser that shows it.
+/// A reference cloth simulator and software rasteriser: exact, deterministic, on the CPU alone.
 #[derive(Parser)]
 #[command(name = "drape", version, max_term_width = 100, after_long_help = EXIT_CODES)]
 pub(crate) struct CommandLine {
@@ -24,23 +24,24 @@ pub(crate) struct CommandLine {
     global: Global,
 }
 
-/// What a command's end says to scripts.
-const EXIT_CODES: &str = "Exit codes: 0 ok, 1 a difference was found, 2 usage, 3 scene or texture invalid, \
-    4 nothing to do, 5 simulation unstable, 6 input or output, 70 internal error, 130 and 143 stopped by a signal.";
+/// The exit codes, for scripts.
+const EXIT_CODES: &str = "Exit codes: 0 success, 1 a comparison or check found a difference, 2 wrong usage, \
+    3 a scene or texture is invalid, 4 nothing to do, 5 the simulation is unstable, 6 a file or an external program \
+    failed, 70 internal error, 130 and 143 stopped by a signal.";
 
-/// What holds for every command.
+/// The options of every command.
 #[derive(clap::Args)]
 struct Global {
-    /// Threads to use, 1 to 1024 (default: all cores); the results are the same bytes for every number
+    /// Number of threads, 1 to 1024 (default: all cores). Results have the same bytes for every number
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
-    /// Errors only on standard error
+    /// Print only errors on standard error
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say what is done and how long it took
+    /// Print more on standard error, such as how long the simulation took
     #[arg(short, long, global = true)]
     verbose: bool,
-    /// When to colour messages
+    /// When to print colours
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     color: Color,
     /// Print the result as one JSON object, and errors as JSON on standard error
@@ -48,45 +49,46 @@ struct Global {
     json: bool,
 }
 
-/// What to do.
+/// The commands.
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Simulate a scene and draw one picture of it
     Render(render::Args),
-    /// Draw a scene in motion: PNG files, an animated PNG, a GIF or a film
+    /// Draw a scene in motion, as an animation or as numbered pictures
     Animate(animate::Args),
     /// Simulate a scene without drawing it
     Simulate(simulate::Args),
-    /// Write the simulated cloth as a mesh (OBJ)
+    /// Simulate a scene and write the cloth as a mesh (OBJ)
     Export(export::Args),
-    /// Tell how two pictures, or the pictures of two folders, differ
+    /// Compare two pictures, or the pictures of two folders
     Compare(compare::Args),
-    /// Tell where the positions of another program part from the method, and by which mistake
+    /// Compare the positions of another program with the method, and find the mistake that explains the difference
     ComparePositions(compare_positions::Args),
-    /// Measure speed against accuracy: methods and steps against a reference, ways of drawing
+    /// Measure cost against accuracy: integrators and steps against a reference run, and ways of drawing
     ///
-    /// It compares the start of the motion alone, at 0.1, 0.2 and 0.5 s (--quick: 0.1 and 0.2 s), with damping per
-    /// second and without stretch limit and self-collision, whatever the scene says. Besides the scene's cloth it tries
-    /// cloths of 1/1000 and 1/100000 of its density (--quick: 1/1000), which are harder to simulate.
+    /// Only the start of the motion is compared: at 0.1, 0.2 and 0.5 s, with --quick at 0.1 and 0.2 s. For this the
+    /// scene is changed: damping is per second, and there is no stretch limit and no self-collision. Besides the
+    /// cloth of the scene, the study simulates cloths of 1/1000 and 1/100000 of its density (with --quick of 1/1000),
+    /// which need more steps.
     Study(study::Args),
-    /// Tell what a scene needs and what is therefore left out
+    /// Show what a scene needs and what it does not, its size in memory, and whether its step is stable
     Info(info::Args),
-    /// Tell everything that is wrong in scene files
+    /// List every error of scene files, and what would stop a later command, without simulating
     Check(check::Args),
-    /// Map where a cloth is stable, over stiffness, density and step
+    /// Map where a cloth is stable, over stiffness, density and steps per frame
     Stability(stability::Args),
-    /// Make every figure of the report, and a page of them
+    /// Draw every figure of the report, and write a page that shows them
     Gallery(gallery::Args),
     /// Print the JSON schema of scene files: every key with its meaning, default and range
     Schema,
-    /// Print the script that completes this program's commands and options in a shell
+    /// Print the script that completes commands and options in a shell
     Completions(meta::CompletionsArgs),
-    /// Print the manual page of this program or of a command
+    /// Print the manual page of drape or of one of its commands
     Man(meta::ManArgs),
 }
 
 impl CommandLine {
-    /// How to speak on standard error.
+    /// What is printed on standard error, and how.
     pub(crate) fn ui(&self) -> Ui {
         Ui {
             json: self.global.json,
@@ -96,14 +98,14 @@ impl CommandLine {
         }
     }
 
-    /// The number of threads; 0 stands for all cores.
+    /// The number of threads; 0 means all cores.
     pub(crate) fn threads(&self) -> usize {
         self.global.threads.unwrap_or(0)
     }
 }
 
-/// What to make of arguments that name no command: help and version go to standard output,
-/// anything else is an error of use. No arguments at all are answered with the help alone.
+/// Answers arguments that were not accepted and returns the exit code: help and version go to standard
+/// output, everything else is an error of usage. Without any arguments the help goes to standard error.
 pub(crate) fn refuse(refusal: &clap::Error, ui: &Ui) -> u8 {
     if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         ui.note(refusal.render().to_string().trim_end());

@@ -1,7 +1,7 @@
-//! The command line program `drape`: one file a command, over what they share.
+//! The program `drape`. Modules stand in the order in which data flows; each uses only those above it.
 //!
-//! Standard output carries the result that was asked for and nothing else; everything else goes
-//! to standard error. The exit code is that of the error's [`Kind`].
+//! Standard output carries the result that was asked for and nothing else: progress, warnings and errors
+//! go to standard error. The exit code is that of the error's [`Kind`].
 
 mod session;
 mod run;
@@ -38,8 +38,7 @@ fn main() -> ExitCode {
 fn execute(arguments: &CommandLine, ui: Ui) -> Result<()> {
     let session = Session { ui, signals: Signals::install()? };
     rayon::ThreadPoolBuilder::new().num_threads(arguments.threads()).build_global().map_err(|e| {
-        Error::new(Kind::Io, format!("cannot start the threads: {e}"))
-            .with_help("ask for fewer with --threads")
+        Error::new(Kind::Io, format!("cannot start the threads: {e}")).with_help("lower --threads")
     })?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),

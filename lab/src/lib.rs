@@ -1,10 +1,15 @@
-//! What measures a cloth simulator: the study of speed against accuracy, the map of stability, the
-//! figures of the report, and the pages and plots that show them.
+//! What measures a cloth simulator: the study of speed against accuracy, the stability map, the
+//! figures of the course report, the grader of other programs' positions, and the pages and plots
+//! that show results.
 //!
-//! Everything here stands on the engine, the crate `drape`, and nothing of it knows a terminal.
+//! Everything here stands on the engine, the crate `drape`. Nothing here knows a terminal: long work
+//! tells its progress through a callback, which can also end it with an error. A module uses only the
+//! modules above it in this list.
 
 pub mod csv;
+pub mod store;
 pub mod page;
-pub mod stability_map;
 pub mod study;
+pub mod stability_map;
 pub mod gallery;
+pub mod grader;

@@ -2,8 +2,8 @@
 //!
 //! A phase that corrects a position also changes the mean velocity `(x - last) / dt`, and so all
 //! three energies; its entry is the change of their sum. Verlet's step moves a point by
-//! `d1 = keep d0 + f a` after it moved by `d0`, and with `d1 - d0 = drag + f dt² / m`
-//! its kinetic energy changes by `(d1 - d0) · (d1 + d0) m / (2 dt²)`, which splits without a rest:
+//! `d1 = velocity_retention d0 + dt2_over_m f` after it moved by `d0`, and with
+//! `d1 - d0 = drag + f dt² / m` its kinetic energy changes by `(d1 - d0) · (d1 + d0) m / (2 dt²)`, which splits without a rest:
 //! - damping: `drag · (d0 + d1) m / (2 dt²)`;
 //! - gravity: `w · (d0 + d1) / 2` of motion and what the height changed, together
 //!   `w · (d0 - d1) / 2`;
@@ -12,9 +12,9 @@
 //! So gravity and springs have entries only for what the finite step makes them add: both vanish
 //! with the step, and grow without end when the step is too large for the springs.
 //!
-//! For other integrators than Verlet's f is the force that explains the motion,
-//! `(d1 - velocity_retention d0) / dt2_over_m`, and for those that remember velocities what is left of
-//! `d1 - d0` beside the drag, times m / dt². So the energy that an integrator loses by itself is entered
+//! For integrators other than Verlet's scheme f is the force that explains the motion,
+//! `(d1 - velocity_retention d0) / dt2_over_m`, and for those that remember velocities `d1 - d0` less the drag,
+//! times m / dt². So the energy that an integrator loses by itself is entered
 //! for the springs and gravity.
 
 use crate::scene::PerKind;

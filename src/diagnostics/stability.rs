@@ -37,9 +37,6 @@ const ITERATIONS: usize = 200;
 /// Points times iterations of the power method on the whole of a large cloth: about a second.
 const WORK: usize = 10_000_000;
 
-/// Most corrections of a number of steps by the bound at that number.
-const CORRECTIONS: usize = 100;
-
 /// The fastest vibrations of a cloth against its step. For an integrator that is stable at every step, the bounds are
 /// those of Verlet's scheme, for comparison.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -134,21 +131,25 @@ fn bound(cloth: &Cloth, sim: &Sim, dt: f64) -> StepBound {
 
 /// The fewest steps per frame at which `dt omega` is below the bound that `pick` picks.
 fn fewest_steps(cloth: &Cloth, sim: &Sim, omega: f64, pick: fn(StepBound) -> f64) -> f64 {
-    let needed = |steps: f64| {
-        let limit = pick(bound(cloth, sim, 1.0 / sim.fps / steps));
-        // Where damping alone is too much for the step, no vibration is stable.
-        if limit > 0.0 { (omega / (sim.fps * limit)).floor() + 1.0 } else { 2.0 * steps }
-    };
-    // The bound may depend on the step, so the number is corrected until it agrees with its own bound.
-    let mut steps = needed(f64::from(sim.steps_per_frame));
-    for _ in 0..CORRECTIONS {
-        let corrected = needed(steps);
-        if corrected == steps {
-            break;
-        }
-        steps = corrected;
+    let dt = |steps: f64| 1.0 / sim.fps / steps;
+    let limit = |steps: f64| pick(bound(cloth, sim, dt(steps)));
+    let now = limit(f64::from(sim.steps_per_frame));
+    let steps = (omega / (sim.fps * now)).floor() + 1.0;
+    if now > 0.0 && limit(steps) == now {
+        return steps;
     }
-    steps
+    // The bound depends on the step: between a number of steps that is too few and one that is not.
+    let (mut few, mut enough) = (0.0, 1.0);
+    while dt(enough) * omega >= limit(enough) && enough < f64::MAX / 2.0 {
+        (few, enough) = (enough, 2.0 * enough);
+    }
+    loop {
+        let middle = (0.5 * (few + enough)).floor();
+        if middle <= few {
+            return enough;
+        }
+        *if dt(middle) * omega < limit(middle) { &mut enough } else { &mut few } = middle;
+    }
 }
 
 /// The largest eigenvalue of the stiffness of `cloth` at rest, pinned points held, in N/m: never

@@ -11,7 +11,7 @@ use crate::{
     math::StateHash,
     mesh::SpringKinds,
     raster::{self, Framebuffer, Stages, Stats},
-    scene::{Plan, Scene},
+    scene::{Images, Scene},
     texture::Texture,
     texture_source::TextureSource,
 };
@@ -81,14 +81,14 @@ impl Renderer {
             let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
             return Err(Error::new(Kind::Scene, message).with_help(help));
         }
-        let plan = Plan::of(scene);
+        let images = Images::of(scene);
         let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
         let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
         Ok(Self {
             scene: scene.clone(),
             camera: Camera::of(scene)?,
-            textures: plan.textures.into_iter().map(texture).collect::<Result<_>>()?,
-            cubemaps: plan.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
+            textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
+            cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
         })
     }
 

@@ -4,23 +4,34 @@ use std::ops::{Index, IndexMut};
 
 use serde::{Serialize, Serializer};
 
-use super::{Material, Vec3};
+use super::Material;
+use super::json::key::Row;
+use super::json::keys::keys;
+use super::json::list::{Counts, Direction, Vector};
+use super::json::object::Object;
+use super::json::range::{ANY, POSITIVE, from_to};
+use super::json::scalar::Count;
+use crate::math::Vec3;
 
-/// The list of colliders: a row is a kind with its key in a scene file and the plural of its name, in the
-/// order in which the method handles and draws them. Everything that differs from kind to kind is a `match`
+/// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
+/// primitives than the rasteriser can number (see `raster::assemble`).
+pub const MAX_RESOLUTION: u32 = 1000;
+
+/// The list of colliders: a row is a kind with its meaning, its key in a scene file and the plural of its
+/// name, in the order in which the method handles and draws them. Everything that differs from kind to kind is a `match`
 /// without a wildcard elsewhere, so the compiler names what a new row needs.
 macro_rules! colliders {
-    ($($(#[$doc:meta])* $kind:ident = $key:literal, $plural:literal;)*) => {
+    ($($(#[doc = $doc:literal])* $kind:ident = $key:literal, $plural:literal;)*) => {
         /// Something that the cloth collides with.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Collider {
-            $($(#[$doc])* $kind($kind),)*
+            $($(#[doc = $doc])* $kind($kind),)*
         }
 
         /// A kind of collider.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum ColliderKind {
-            $($(#[$doc])* $kind,)*
+            $($(#[doc = $doc])* $kind,)*
         }
 
         impl ColliderKind {
@@ -31,6 +42,18 @@ macro_rules! colliders {
             pub fn key(self) -> &'static str {
                 match self {
                     $(Self::$kind => $key,)*
+                }
+            }
+
+            fn row(self) -> Row {
+                match self {
+                    $(Self::$kind => Row::new($key, &[$($doc),*]),)*
+                }
+            }
+
+            fn read(self, at: &mut Object) -> Collider {
+                match self {
+                    $(Self::$kind => Collider::$kind($kind::read(at)),)*
                 }
             }
 
@@ -64,7 +87,7 @@ macro_rules! colliders {
                 }
             }
 
-            /// Part of the sliding that contact takes away (0..=1), to be changed.
+            /// Share of the sliding motion that contact removes (0..=1), to be changed.
             pub fn friction_mut(&mut self) -> &mut f64 {
                 match self {
                     $(Self::$kind(collider) => &mut collider.friction,)*
@@ -83,23 +106,25 @@ macro_rules! colliders {
 }
 
 colliders! {
-    /// An infinite plane.
+    /// A plane that the cloth falls on, or a list of planes. It has no end, but only a square of 4 m of it is
+    /// drawn.
     Plane = "plane", "planes";
-    /// A ball.
+    /// A ball that the cloth falls on, or a list of balls.
     Sphere = "sphere", "spheres";
 }
 
-/// An infinite plane that the cloth collides with, drawn as a square of 4 m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plane {
-    /// A point of the plane, in metres.
-    pub point: Vec3,
-    /// Its normal as the file gives it: any length but 0.
-    pub normal: Vec3,
-    /// Part of the sliding that contact takes away (0..=1).
-    pub friction: f64,
-    /// What the plane looks like.
-    pub material: Material,
+keys! {
+    /// An infinite plane that the cloth collides with, drawn as a square of 4 m.
+    pub struct Plane {
+        /// A point of the plane; the drawn square is around it.
+        point: Vec3 => [required] Vector(ANY.unit("m")), local;
+        /// The direction at right angles to the plane, of any length.
+        normal: Vec3 => [required] Direction(ANY), local;
+        /// Share of the sliding motion that contact removes: 0 is smooth, 1 holds a point where it was a step before.
+        friction: f64 => [required] from_to(0.0, 1.0);
+        /// What the plane looks like. A key that is left out is as in the scene's `material`.
+        material: Material => [inherited] Material::read_grey;
+    }
 }
 
 impl Plane {
@@ -108,25 +133,36 @@ impl Plane {
     }
 }
 
-/// A ball that the cloth collides with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sphere {
-    /// Centre, in metres.
-    pub origin: Vec3,
-    /// Radius, in metres (> 0).
-    pub radius: f64,
-    /// Part of the sliding that contact takes away (0..=1).
-    pub friction: f64,
-    /// Latitude and longitude counts of the drawn mesh (latitude 2..=[`super::MAX_RESOLUTION`],
-    /// longitude 3..=[`super::MAX_RESOLUTION`]).
-    pub resolution: [u32; 2],
-    /// What the ball looks like.
-    pub material: Material,
+keys! {
+    /// A ball that the cloth collides with.
+    pub struct Sphere {
+        /// The centre `[x, y, z]`.
+        origin: Vec3 => [required] Vector(ANY.unit("m")), local;
+        /// The radius. The drawn ball has 0.92 of it, so that the flat triangles of the cloth do not cut into it.
+        radius: f64 => [required] POSITIVE.unit("m");
+        /// Share of the sliding motion that contact removes: 0 is smooth, 1 holds a point where it was a step before.
+        friction: f64 => [required] from_to(0.0, 1.0);
+        /// Latitude and longitude counts of the drawn ball.
+        resolution: [u32; 2] => [[40, 40]] Counts(Count(2, MAX_RESOLUTION), Count(3, MAX_RESOLUTION)), local;
+        /// What the ball looks like. A key that is left out is as in the scene's `material`.
+        material: Material => [inherited] Material::read;
+    }
 }
 
 impl Sphere {
     fn collides_like(&self, other: &Self) -> bool {
         Self { material: self.material.clone(), resolution: self.resolution, ..other.clone() } == *self
+    }
+}
+
+impl Collider {
+    /// Reads the colliders of every kind, each in file order. The documentation lists the kinds the other
+    /// way round.
+    pub(super) fn read_all(at: &mut Object) -> Vec<Self> {
+        let kinds = ColliderKind::ALL.iter().rev();
+        let mut colliders: Vec<_> = kinds.flat_map(|&kind| at.each(kind.row(), |at| kind.read(at))).collect();
+        colliders.sort_by_key(|collider| collider.kind() as usize);
+        colliders
     }
 }
 

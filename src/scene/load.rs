@@ -4,12 +4,15 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::checks::Checks;
-use super::format::{Node, parse};
-use super::nearest::nearest;
-use super::report::{Finding, Report};
-use super::source::Span;
-use super::{Scene, fields, patch, reader, stock};
+use super::json::diagnostic::Diagnostics;
+use super::json::finding::Finding;
+use super::json::node::Node;
+use super::json::object;
+use super::json::parse::parse;
+use super::json::span::Span;
+use super::json::suggest::nearest;
+use super::keys::keys;
+use super::{Scene, patch, stock, validate};
 use crate::error::{Diagnostic, Error, Kind, Result};
 
 /// Largest scene or patch file, in bytes.
@@ -78,31 +81,31 @@ fn assemble(
     overrides: &Overrides,
     read: impl Fn(&Path) -> Result<Vec<u8>>,
 ) -> Result<Loaded> {
-    let mut report = Report::default();
-    let document = file(&mut report, name, bytes);
+    let mut diagnostics = Diagnostics::default();
+    let document = file(&mut diagnostics, name, bytes);
     let mut patches = Vec::new();
     for path in &overrides.patches {
-        patches.push(file(&mut report, &path.display().to_string(), &read(path)?));
+        patches.push(file(&mut diagnostics, &path.display().to_string(), &read(path)?));
     }
     let mut sets = Vec::new();
     for argument in &overrides.sets {
-        sets.push(patch::read_set(&mut report, argument)?);
+        sets.push(patch::read_set(&mut diagnostics, argument)?);
     }
     let texts = document.zip(patches.into_iter().collect::<Option<Vec<_>>>());
     let scene =
         texts.zip(sets.into_iter().collect::<Option<Vec<_>>>()).and_then(|((document, patches), sets)| {
             let mut document = patches.into_iter().fold(document, patch::merge);
-            sets.into_iter().for_each(|set| patch::apply(&mut report, &mut document, set));
-            validate(&mut report, &document)
+            sets.into_iter().for_each(|set| patch::apply(&mut diagnostics, &mut document, set));
+            read_scene(&mut diagnostics, &document)
         });
-    let warnings = report.finish()?;
+    let warnings = diagnostics.finish()?;
     let scene = scene.ok_or_else(|| Error::new(Kind::Internal, "no scene and no error"))?;
     Ok(Loaded { scene, warnings })
 }
 
-fn validate(report: &mut Report, document: &Node) -> Option<Scene> {
-    let scene = reader::document(report, document, fields::scene).flatten()?;
-    Checks { report, document, scene: &scene }.run();
+fn read_scene(diagnostics: &mut Diagnostics, document: &Node) -> Option<Scene> {
+    let scene = object::read(diagnostics, document, keys, Scene::read)?;
+    validate::validate(diagnostics, document, &scene);
     Some(scene)
 }
 
@@ -130,16 +133,16 @@ fn neighbor(path: &Path) -> Option<String> {
     Some(format!("did you mean `{}`?", folder.join(near).display()))
 }
 
-/// The JSON value of a file's bytes; nothing, after a report, if they are not JSON in UTF-8.
-fn file(report: &mut Report, name: &str, bytes: &[u8]) -> Option<Node> {
+/// The JSON value of a file's bytes; nothing, after an error, if they are not JSON in UTF-8.
+fn file(diagnostics: &mut Diagnostics, name: &str, bytes: &[u8]) -> Option<Node> {
     if bytes.len() as u64 > MAX_FILE {
-        let place = Span { source: report.add_source(name, ""), start: 0, end: 0 };
+        let place = Span { source: diagnostics.add_source(name, ""), start: 0, end: 0 };
         let message = format!("the file is larger than {MAX_FILE} bytes");
-        report.error(Finding::new("scene::too_large", message).at(place, "not read"));
+        diagnostics.error(Finding::new("scene::too_large", message).at(place, "not read"));
         return None;
     }
     let text = String::from_utf8_lossy(bytes);
-    let source = report.add_source(name, &*text);
+    let source = diagnostics.add_source(name, &*text);
     let wrong = if let Err(error) = std::str::from_utf8(bytes) {
         let start = error.valid_up_to();
         Some((start..start + char::REPLACEMENT_CHARACTER.len_utf8(), "not valid UTF-8"))
@@ -151,10 +154,10 @@ fn file(report: &mut Report, name: &str, bytes: &[u8]) -> Option<Node> {
         None
     };
     match wrong {
-        None => parse(report, source, 0),
+        None => parse(diagnostics, source, 0),
         Some((range, message)) => {
             let place = Span { source, start: range.start, end: range.end };
-            report.error(Finding::new("scene::syntax", message).at(place, "here"));
+            diagnostics.error(Finding::new("scene::syntax", message).at(place, "here"));
             None
         }
     }

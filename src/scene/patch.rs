@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::collider::ColliderKind;
-use super::format::{Json, Member, Node, parse};
-use super::report::{Finding, Report};
-use super::source::Span;
-use super::words::{join, quoted, shown};
+use super::ColliderKind;
+use super::json::diagnostic::Diagnostics;
+use super::json::finding::Finding;
+use super::json::node::{Json, Member, Node};
+use super::json::parse::parse;
+use super::json::span::Span;
+use super::json::text::{join, quoted, shown};
 use crate::error::{Error, Kind, Result};
 
 /// Most steps of a `--set` path; a scene needs four.
@@ -59,18 +61,18 @@ struct Step {
     span: Span,
 }
 
-/// Reads `PATH=JSON`; a bare word that is not JSON is text. Gives nothing, after a report, if the
+/// Reads `PATH=JSON`; a bare word that is not JSON is text. Gives nothing, after an error, if the
 /// value is not JSON.
 ///
 /// # Errors
 /// [`Kind::Usage`] if `argument` has no `=`, or an empty or far too long path.
-pub(super) fn read_set(report: &mut Report, argument: &str) -> Result<Option<Set>> {
+pub(super) fn read_set(diagnostics: &mut Diagnostics, argument: &str) -> Result<Option<Set>> {
     let usage = |what: &str| {
         Error::new(Kind::Usage, format!("`--set {}`: {what}", shown(argument)))
             .with_help("write a dotted key and a JSON value, such as `--set cloth.ks=500`")
     };
     let (path, value) = argument.split_once('=').ok_or_else(|| usage("there is no `=`"))?;
-    let source = report.add_source(format!("--set {argument}"), argument);
+    let source = diagnostics.add_source(format!("--set {argument}"), argument);
     let steps = steps(path, source);
     if steps.len() > MOST_STEPS {
         return Err(usage("the path is too long"));
@@ -83,7 +85,7 @@ pub(super) fn read_set(report: &mut Report, argument: &str) -> Result<Option<Set
         let span = Span { source, start, end: argument.len() };
         Some(Node { span, json: Json::Text(value.into()) })
     } else {
-        parse(report, source, start)
+        parse(diagnostics, source, start)
     };
     Ok(value.map(|value| Set { steps, value }))
 }
@@ -107,9 +109,9 @@ fn is_bare_word(value: &str) -> bool {
 }
 
 /// Puts the value of `set` into `document`; objects on the way are made where they are missing.
-pub(super) fn apply(report: &mut Report, document: &mut Node, set: Set) {
+pub(super) fn apply(diagnostics: &mut Diagnostics, document: &mut Node, set: Set) {
     let steps = list_steps(document, set.steps);
-    insert(report, document, &steps, "", set.value);
+    insert(diagnostics, document, &steps, "", set.value);
 }
 
 /// Lets one collider count as a list of one, and a list of one as its only collider.
@@ -130,7 +132,7 @@ fn list_steps(document: &Node, mut steps: Vec<Step>) -> Vec<Step> {
     steps
 }
 
-fn insert(report: &mut Report, node: &mut Node, steps: &[Step], path: &str, value: Node) {
+fn insert(diagnostics: &mut Diagnostics, node: &mut Node, steps: &[Step], path: &str, value: Node) {
     let Some((step, rest)) = steps.split_first() else {
         *node = value;
         return;
@@ -142,8 +144,8 @@ fn insert(report: &mut Report, node: &mut Node, steps: &[Step], path: &str, valu
         _ => None,
     };
     match inner {
-        Some(inner) => insert(report, inner, rest, &join(path, &step.name), value),
-        None => report.error(no_such_place(step, path, kind)),
+        Some(inner) => insert(diagnostics, inner, rest, &join(path, &step.name), value),
+        None => diagnostics.error(no_such_place(step, path, kind)),
     }
 }
 
@@ -169,9 +171,9 @@ mod tests {
     use super::*;
 
     fn node(text: &str) -> Node {
-        let mut report = Report::default();
-        let source = report.add_source("x.json", text);
-        parse(&mut report, source, 0).unwrap()
+        let mut diagnostics = Diagnostics::default();
+        let source = diagnostics.add_source("x.json", text);
+        parse(&mut diagnostics, source, 0).unwrap()
     }
 
     fn plain(node: &Node) -> serde_json::Value {
@@ -212,11 +214,11 @@ mod tests {
     }
 
     fn after(text: &str, set: &str) -> String {
-        let mut report = Report::default();
+        let mut diagnostics = Diagnostics::default();
         let mut document = node(text);
-        let set = read_set(&mut report, set).unwrap().unwrap();
-        apply(&mut report, &mut document, set);
-        report.finish().unwrap();
+        let set = read_set(&mut diagnostics, set).unwrap().unwrap();
+        apply(&mut diagnostics, &mut document, set);
+        diagnostics.finish().unwrap();
         plain(&document).to_string()
     }
 

@@ -1,83 +1,44 @@
-//! A finding drawn for people: the line of the file with a caret under the place.
+//! The picture: its size, samples, background and moment.
 
-use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use super::json::choice::{choice, choices};
+use super::json::keys::keys;
+use super::json::list::{Counts, Vector};
+use super::json::object::defaults;
+use super::json::range::{NOT_NEGATIVE, from_to};
+use super::json::scalar::{Count, OneOf};
+use crate::math::Vec3;
 
-use super::report::Finding;
-use super::source::{Source, Span};
-
-/// Longer pieces of a source are not shown, only named.
-const MOST_SHOWN: usize = 8192;
-
-/// How bad a finding is.
-#[derive(Clone, Copy)]
-pub(super) enum Severity {
-    Error,
-    Warning,
-}
-
-/// The finding as plain text in the look of rustc, without a line end.
-pub(super) fn render(sources: &[Source], finding: &Finding, severity: Severity) -> String {
-    let level = match severity {
-        Severity::Error => Level::ERROR,
-        Severity::Warning => Level::WARNING,
-    };
-    let mut group = Group::with_title(level.primary_title(&finding.message).id(finding.code));
-    let snippets = finding.place.map_or_else(Vec::new, |place| snippets(sources, finding, place));
-    if snippets.is_empty() {
-        group = group.elements(origin(sources, finding.place));
-    }
-    group = group.elements(snippets);
-    if !finding.help.is_empty() {
-        group = group.element(Level::HELP.message(&finding.help));
-    }
-    Renderer::plain().render(&[group])
-}
-
-/// What stands at one place, and the words beside it.
-type Mark<'a> = (AnnotationKind, Span, &'a str);
-
-/// One snippet when both places stand close together, else one for each.
-fn snippets<'a>(
-    sources: &'a [Source],
-    finding: &'a Finding,
-    place: Span,
-) -> Vec<Snippet<'a, Annotation<'a>>> {
-    let primary: Mark = (AnnotationKind::Primary, place, &finding.label);
-    let also = finding.also.as_ref().map(|(span, label)| (AnnotationKind::Context, *span, label.as_str()));
-    let near = also.filter(|also| also.1.source == place.source);
-    match near.and_then(|also| snippet(sources, &[primary, also])) {
-        Some(both) => vec![both],
-        None => [primary].into_iter().chain(also).filter_map(|mark| snippet(sources, &[mark])).collect(),
+keys! {
+    /// Size, samples, background and moment of the picture.
+    pub struct Render {
+        /// Width and height of the picture in pixels.
+        size: [u32; 2] => [[1024, 800]] Counts(Count(1, 16384), Count(1, 16384)), local;
+        /// Samples per pixel: more than 1 smooths edges.
+        samples: u32 => [1] OneOf(&[1, 4, 8, 16]);
+        /// Colour where nothing is drawn, in red, green and blue from 0 to 1.
+        ///
+        /// Linear, per channel.
+        background: Vec3 => [Vec3::repeat(0.25)] Vector(NOT_NEGATIVE);
+        /// Simulated time at which the picture is taken, rounded to a frame.
+        time: f64 => [2.0] from_to(0.0, 1e6).unit("s");
+        /// How textures are looked up.
+        filter: Filter => [Filter::Bilinear] choice::<Filter>();
     }
 }
 
-/// The lines that hold `marks`, which all stand in one source; none if that is too much.
-fn snippet<'a>(sources: &'a [Source], marks: &[Mark<'a>]) -> Option<Snippet<'a, Annotation<'a>>> {
-    let source = sources.get(marks.first()?.1.source)?;
-    let spans = || marks.iter().map(|mark| on_one_line(source, mark.1));
-    let start = spans().map(|span| span.start).min()?;
-    let end = spans().map(|span| span.end).max()?;
-    let (offset, text) = source.lines_around(start, end);
-    if text.len() > MOST_SHOWN {
-        return None;
+choices! {
+    /// How textures are looked up (`render.filter`).
+    pub enum Filter {
+        /// The texel under the point.
+        Nearest = "nearest",
+        /// Four texels, weighted by their distance.
+        Bilinear = "bilinear",
     }
-    let (line, _) = source.line_column(offset);
-    let annotations = marks.iter().map(|&(kind, span, label)| {
-        let span = on_one_line(source, span);
-        kind.span(span.start - offset..span.end - offset).label((!label.is_empty()).then_some(label))
-    });
-    Some(Snippet::source(text).line_start(line).path(&source.name).annotations(annotations))
 }
 
-/// The place by name alone.
-fn origin(sources: &[Source], place: Option<Span>) -> Option<Origin<'_>> {
-    let Some(place) = place else { return sources.first().map(|source| Origin::path(&source.name)) };
-    let source = sources.get(place.source)?;
-    let (line, column) = source.line_column(place.start);
-    Some(Origin::path(&source.name).line(line).char_column(column))
-}
-
-/// A span that does not run over its first line's end.
-fn on_one_line(source: &Source, span: Span) -> Span {
-    Span { end: span.start + source.first_line(span).len(), ..span }
+impl Default for Render {
+    /// The picture of a scene file that says nothing about it.
+    fn default() -> Self {
+        defaults(Self::read)
+    }
 }

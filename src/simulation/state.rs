@@ -12,7 +12,7 @@ use crate::diagnostics::energy::Energy;
 use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
 use crate::integrator::{self, Integrator};
-use crate::scene::{ColliderKind, Plan, Scene, Start};
+use crate::scene::{ColliderKind, Scene, Start};
 
 /// The state of a cloth and what its step needs; phases that the scene does without are absent.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl State {
     /// The cloth of `scene`, if there is one, at its start or at `start`.
     pub(super) fn new(scene: &Scene, start: Option<&Points>) -> Result<Option<Self>> {
         let Some(cloth) = &scene.cloth else { return Ok(None) };
-        let (sim, plan) = (&scene.sim, Plan::of(scene));
+        let sim = &scene.sim;
         let grid = Grid::new(cloth)?;
         let mut x = grid::start(cloth, grid)?;
         if let Some(start) = start {
@@ -58,8 +58,8 @@ impl State {
             grid,
             pins: Pins::new(cloth, grid)?,
             last,
-            self_collision: SelfCollision::new(plan.self_collision, cloth, sim, grid, &x)?,
-            stretch_limit: plan.stretch_limit.map(limit).transpose()?,
+            self_collision: SelfCollision::new(scene.needed_self_collision(), cloth, sim, grid, &x)?,
+            stretch_limit: scene.needed_stretch_limit().map(limit).transpose()?,
             work: Counters::default(),
             energy_bound: EnergyBound::default(),
             frame_start: vec![Points::zeros(grid.len())?; 2 + integrator.memory().len()],

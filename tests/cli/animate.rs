@@ -39,7 +39,7 @@ fn pictures_of_the_background_alone_are_warned_of() {
     let scratch = Scratch::new();
     let said = |more: &[&str]| animate(&scratch, "a.gif", &[&["--frames", "0..2"], more].concat()).stderr;
     let away = ["--set", "camera.target=[50,0,0]"];
-    assert!(said(&away).contains("warning: nothing is seen in the pictures"), "{}", said(&away));
+    assert!(said(&away).contains("warning: no object is visible in the pictures"), "{}", said(&away));
     assert_eq!(said(&[&away[..], &["-q"]].concat()), "");
     assert!(!said(&[]).contains("warning"), "{}", said(&[]));
 }
@@ -306,7 +306,9 @@ fn a_signal_keeps_finished_pictures_and_no_other_file() {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
     let scratch = Scratch::new();
-    for (out, says) in [("f/%d.png", "run the same command again to draw the rest"), ("a.apng", "nothing was written")] {
+    for (out, says) in
+        [("f/%d.png", "run the same command again to draw the rest"), ("a.apng", "nothing was written")]
+    {
         let arguments = ["animate", "small.json", out, "--frames", "0..100000000", "--size", "64x64"];
         let mut child = scratch.command(&arguments).stderr(Stdio::piped()).spawn().unwrap();
         let (started, first) = (Instant::now(), scratch.path("f/1.png"));

@@ -52,7 +52,10 @@ fn a_picture_of_the_background_alone_is_warned_of() {
     };
     let away = ["--set", "camera.target=[50,0,0]"];
     let warning = said(&away);
-    assert!(warning.contains("warning: nothing is seen") && warning.contains("camera.target"), "{warning}");
+    assert!(
+        warning.contains("warning: no object is visible") && warning.contains("camera.target"),
+        "{warning}"
+    );
     assert_eq!(said(&[&away[..], &["-q"]].concat()), "");
     let seen = said(&["--shader", "wireframe"]);
     assert!(!seen.contains("warning"), "{seen}");

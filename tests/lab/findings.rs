@@ -4,10 +4,11 @@
 
 use drape::scene::Overrides;
 use drape::texture_source::TextureSource;
-use drape_lab::study::matrix::{Extent, Source};
+use drape_lab::store::Store;
+use drape_lab::study::extent::Extent;
 use drape_lab::study::reference::Difference;
 use drape_lab::study::runs::Measured;
-use drape_lab::study::store::Store;
+use drape_lab::study::source::Source;
 use drape_lab::study::{self, PanelStudy};
 
 /// A row of the table: its number, then the cells as they stand there.
@@ -39,13 +40,6 @@ impl Row {
     /// The number in a cell; none where the study has none.
     fn value(&self, cell: usize) -> f64 {
         self.cells[cell].parse().unwrap_or(f64::NAN)
-    }
-
-    /// Every number that the text may take from the row.
-    fn values(&self) -> Vec<f64> {
-        let cells = (0..self.cells.len()).flat_map(|cell| [self.value(cell), 100.0 * self.value(cell)]);
-        let named = numbers(&self.name).into_iter().map(|(number, _)| number.parse::<f64>().unwrap());
-        cells.map(f64::abs).chain(named).collect()
     }
 }
 
@@ -107,12 +101,19 @@ fn every_row_is_what_the_program_computes() {
     assert_eq!(checked, page().1.len());
 }
 
-/// The numbers in `text`, each with what follows it; those that are parts of words are none.
-fn numbers(text: &str) -> Vec<(String, &str)> {
+/// A number in a text, with the text before and after it.
+struct Number<'a> {
+    before: &'a str,
+    text: &'a str,
+    after: &'a str,
+}
+
+/// The numbers in `text`; those that are parts of words are none.
+fn numbers(text: &str) -> Vec<Number<'_>> {
     let mut found = Vec::new();
-    let mut before = ' ';
-    let mut rest = text;
-    while let Some(first) = rest.chars().next() {
+    let mut start = 0;
+    while let Some(first) = text[start..].chars().next() {
+        let rest = &text[start..];
         let mut end = first.len_utf8();
         if first.is_ascii_digit() {
             let belongs = |(i, c): (usize, char)| {
@@ -122,12 +123,11 @@ fn numbers(text: &str) -> Vec<(String, &str)> {
                     || (c == '-' && rest[..i].ends_with('e'))
             };
             end = rest.char_indices().find(|&found| !belongs(found)).map_or(rest.len(), |(i, _)| i);
-            if !before.is_alphanumeric() {
-                found.push((rest[..end].to_owned(), &rest[end..]));
+            if !text[..start].ends_with(char::is_alphanumeric) {
+                found.push(Number { before: &text[..start], text: &rest[..end], after: &rest[end..] });
             }
         }
-        before = rest[..end].chars().last().unwrap();
-        rest = &rest[end..];
+        start += end;
     }
     found
 }
@@ -139,21 +139,91 @@ fn rounded(value: f64, like: &str) -> String {
     if like.contains('e') { format!("{value:.digits$e}") } else { format!("{value:.digits$}") }
 }
 
-/// Whether `rows` have a number that rounds to `number`: one of theirs, or before `times` how many times
-/// as much one has as another.
-fn is_from(rows: &[&Row], number: &str, after: &str) -> bool {
-    let unit = after.split(|c: char| !c.is_alphanumeric()).nth(1);
-    if after.starts_with(' ') && unit == Some("s") {
-        return ["0.1", "0.5"].contains(&number);
+/// A cell that a text names, such as `2b`, or a row alone, such as `2`.
+#[derive(Clone, Copy)]
+struct Cell<'a> {
+    row: &'a Row,
+    column: Option<char>,
+}
+
+impl<'a> Cell<'a> {
+    fn parse(text: &str, rows: &'a [Row]) -> Option<Self> {
+        let column = text.chars().last().filter(|c| ('a'..='e').contains(c));
+        let number = column.map_or(text, |_| &text[..text.len() - 1]);
+        Some(Self { row: rows.iter().find(|row| row.number == number)?, column })
     }
-    let ratios = || {
-        let pairs = rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
-        pairs.flat_map(|(a, b)| (0..5).map(move |cell| a.value(cell) / b.value(cell)))
+
+    fn value(&self) -> f64 {
+        self.column.map_or(f64::NAN, |column| self.row.value(usize::from(column as u8 - b'a')))
+    }
+}
+
+/// The cells between two brackets, `2b, 24e/2e`: a cell with the one that it is divided by, if there is one.
+fn citation<'a>(text: &str, rows: &'a [Row]) -> Option<Vec<(Cell<'a>, Option<Cell<'a>>)>> {
+    let part = |part: &str| match part.split_once('/') {
+        None => Some((Cell::parse(part, rows)?, None)),
+        Some((a, b)) => Some((Cell::parse(a, rows)?, Some(Cell::parse(b, rows)?))),
     };
-    let own = rows.iter().flat_map(|row| row.values());
-    let values: Vec<f64> =
-        if after.starts_with(" times") { own.chain(ratios()).collect() } else { own.collect() };
-    values.iter().any(|value| rounded(*value, number) == number)
+    text.split(", ").map(part).collect()
+}
+
+/// What is wrong with a paragraph. Every number belongs to the next citation. The steps a second, the time
+/// and the k/m are those of the rows and columns that it names; the other numbers are its cells, in order. A
+/// k/m is that of all rows that follow, up to the next one.
+fn wrong(paragraph: &str, rows: &[Row]) -> Vec<String> {
+    let mut wrong = Vec::new();
+    let mut k_over_m = "";
+    let (parts, last) = paragraph.rsplit_once(']').unwrap_or(("", paragraph));
+    wrong.extend(numbers(last).iter().map(|number| format!("{} has no citation", number.text)));
+    for part in parts.split(']').filter(|part| !part.is_empty()) {
+        let (prose, names) = part.split_once('[').unwrap();
+        let Some(cited) = citation(names, rows) else {
+            wrong.push(format!("[{names}] is not in the table"));
+            continue;
+        };
+        let cells: Vec<Cell<'_>> = cited.iter().flat_map(|(a, b)| [Some(*a), *b]).flatten().collect();
+        let mut figures = Vec::new();
+        for number in numbers(prose) {
+            let fits = |is: &dyn Fn(&Cell<'_>) -> bool| cells.iter().any(is);
+            let is_right = if number.before.ends_with("k/m ") {
+                k_over_m = number.text;
+                true
+            } else if number.after.starts_with(" steps/s") {
+                fits(&|cell| cell.row.name.ends_with(&format!(" {} steps/s", number.text)))
+            } else if number.after.starts_with(" s") && !number.after[2..].starts_with(char::is_alphanumeric)
+            {
+                let column = match number.text {
+                    "0.1" => 'a',
+                    "0.5" => 'b',
+                    _ => '-',
+                };
+                fits(&|cell| cell.column == Some(column))
+            } else {
+                figures.push(number);
+                continue;
+            };
+            if !is_right {
+                wrong.push(format!("{} is not that of [{names}]", number.text));
+            }
+        }
+        let values: Vec<f64> = cited
+            .iter()
+            .filter(|(cell, _)| cell.column.is_some())
+            .map(|(a, b)| a.value() / b.map_or(1.0, |b| b.value()))
+            .collect();
+        if figures.len() != values.len() {
+            wrong.push(format!("[{names}] has {} cells for {} numbers", values.len(), figures.len()));
+        }
+        for (figure, value) in figures.iter().zip(values) {
+            let value = if figure.after.starts_with(" %") { 100.0 * value } else { value };
+            if rounded(value, figure.text) != figure.text {
+                wrong.push(format!("{} is {value} in [{names}]", figure.text));
+            }
+        }
+        let others = cells.iter().filter(|cell| !cell.row.name.contains(k_over_m));
+        wrong.extend(others.map(|cell| format!("row {} is not of k/m {k_over_m}", cell.row.number)));
+    }
+    wrong
 }
 
 /// Paragraphs and list items of a section, each on one line, without what stands in code.
@@ -167,30 +237,76 @@ fn paragraphs(section: &str) -> Vec<String> {
     prose.split("\n\n").map(line).filter(|line| !line.is_empty()).collect()
 }
 
-/// The numbers of the rows that a paragraph names: `[3, 4]`.
-fn named_rows(paragraph: &str) -> Vec<&str> {
-    let brackets = paragraph.split('[').skip(1).filter_map(|rest| rest.split_once(']'));
-    brackets.flat_map(|(inside, _)| inside.split(", ")).collect()
+/// The numbers of the rows that a text names.
+fn named_rows(text: &str) -> Vec<&str> {
+    let brackets = text.split('[').skip(1).filter_map(|rest| rest.split_once(']'));
+    let cells = brackets.flat_map(|(inside, _)| inside.split([',', '/', ' ']));
+    cells.map(|cell| cell.trim_end_matches(char::is_alphabetic)).filter(|row| !row.is_empty()).collect()
 }
 
 #[test]
-fn every_figure_in_the_text_is_that_of_a_row_that_it_names() {
+fn every_figure_in_the_text_is_that_of_the_cell_that_it_names() {
     let (text, rows) = page();
-    let mut named = Vec::new();
+    let mut found = Vec::new();
     for section in text.split("\n## ").skip(1) {
         for paragraph in paragraphs(section) {
-            let numbers_of_rows = named_rows(&paragraph);
-            let of = |number: &&str| rows.iter().find(|row| row.number == *number).expect("the row is there");
-            let cited: Vec<&Row> = numbers_of_rows.iter().map(of).collect();
-            let prose: String = paragraph.split('[').map(|part| part.rsplit(']').next().unwrap()).collect();
-            for (number, after) in numbers(&prose) {
-                assert!(is_from(&cited, &number, after), "{number} is in no row that is named: {paragraph}");
-            }
-            named.extend(cited.iter().map(|row| row.number.clone()));
+            found.extend(wrong(&paragraph, &rows).into_iter().map(|wrong| format!("{wrong}: {paragraph}")));
         }
     }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    let sections = text.split_once("\n## ").unwrap().1;
     for row in &rows {
-        assert!(named.contains(&row.number), "nothing is said of {row:?}");
+        assert!(named_rows(sections).contains(&row.number.as_str()), "nothing is said of {row:?}");
+    }
+}
+
+/// The check above finds every kind of wrong number, citation and condition.
+#[test]
+fn a_wrong_figure_is_found() {
+    let (text, rows) = page();
+    let first = paragraphs(text.split("\n## ").nth(1).unwrap()).remove(1);
+    assert_eq!(wrong(&first, &rows), Vec::<String>::new());
+    for (right, other) in [
+        ("3.65e-5 m", "3.66e-5 m"),
+        ("9.6 times", "9.5 times"),
+        ("9.6 times", "7.5 times"),
+        ("[24e/2e]", "[2e/24e]"),
+        ("[24e/2e]", "[24b/2e]"),
+        ("[2b]", "[2a]"),
+        ("[2b]", "[4b]"),
+        ("[2b]", "[2]"),
+        ("[2b]", "[2b, 2e]"),
+        ("[2b]", "[99b]"),
+        (" [1b]", ""),
+        ("600 steps/s", "540 steps/s"),
+        ("at 0.5 s", "at 0.1 s"),
+        ("at 0.5 s", "at 0.4 s"),
+        ("k/m 8.33e4", "k/m 8.33e7"),
+    ] {
+        assert!(first.contains(right), "{right} in {first}");
+        assert_ne!(wrong(&first.replace(right, other), &rows), Vec::<String>::new(), "{other}");
+    }
+}
+
+/// Every implicit row is worse than a row of Verlet's scheme that visits fewer springs.
+#[test]
+fn no_implicit_method_is_on_the_front() {
+    let (text, rows) = page();
+    assert!(text.contains("**No implicit method is on the Pareto front**"));
+    let panel = |row: &Row| row.name.split(':').next().unwrap().to_owned();
+    let implicit: Vec<&Row> =
+        rows.iter().filter(|row| ["implicit", "BDF2"].iter().any(|name| row.name.contains(name))).collect();
+    assert!(implicit.len() > 10, "{} rows", implicit.len());
+    for row in implicit {
+        let is_worse_than = |other: &&Row| {
+            let mut moments = (0..2).filter(|&moment| !row.value(moment).is_nan());
+            let [cost, other_cost] = [row, *other].map(|row| row.value(4));
+            other_cost < cost && moments.all(|moment| other.value(moment) < row.value(moment))
+        };
+        let mut verlet = rows
+            .iter()
+            .filter(|other| panel(other) == panel(row) && other.name.contains("Verlet, half-step start"));
+        assert!(verlet.any(|other| is_worse_than(&other)), "{row:?}");
     }
 }
 
@@ -220,7 +336,7 @@ fn commands_make_the_rows_of_their_section() {
 
 #[test]
 fn numbers_are_told_from_words() {
-    let found = |text| numbers(text).into_iter().map(|(number, _)| number).collect::<Vec<_>>();
+    let found = |text| numbers(text).into_iter().map(|number| number.text).collect::<Vec<_>>();
     assert_eq!(
         found("f32 is 7.1e-6 m, 31 times. BDF2: 1e4, 2.9; 8.3e7."),
         ["7.1e-6", "31", "1e4", "2.9", "8.3e7"]

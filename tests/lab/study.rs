@@ -8,9 +8,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Overrides};
 use drape::texture_source::TextureSource;
-use drape_lab::study::matrix::{Cell, Extent, METHODS, Source, panels};
+use drape_lab::store::Store;
+use drape_lab::study::extent::Extent;
+use drape_lab::study::matrix::{Cell, panels};
+use drape_lab::study::method::METHODS;
 use drape_lab::study::runs::Outcome;
-use drape_lab::study::store::Store;
+use drape_lab::study::source::Source;
 use drape_lab::study::{self, Cost, Results, Study};
 
 const SCENE: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 6,
@@ -109,9 +112,9 @@ fn a_small_study_finds_the_order_of_every_method() {
     let smallest = error("Verlet, half-step start", 3);
     assert!(floor.rms <= 0.1 * smallest, "{floor:?} for {smallest:e}");
     assert!(panel.reference.rates[1] >= 4 * half[3].rate, "{:?}", panel.reference.rates);
-    // Of the hull that is the same on every machine the most accurate is the best method.
-    let hull = panel.hull(Cost::Springs);
-    assert_eq!(hull.last().map(|&i| panel.cells[i].method), Some(0), "{hull:?}");
+    // The most accurate of the front that is the same on every machine is the best method.
+    let front = panel.front(Cost::Springs);
+    assert_eq!(front.last().map(|&i| panel.cells[i].method), Some(0), "{front:?}");
     let pictures = study.pictures.as_ref().unwrap();
     let rmse: Vec<f64> = pictures.drawn.iter().map(|drawn| drawn.rmse).collect();
     assert_eq!(pictures.drawn.len(), 8, "samples in binary32 and in binary64");

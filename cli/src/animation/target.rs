@@ -25,21 +25,17 @@ pub(crate) fn help() -> String {
     let formats: Vec<String> =
         FORMATS.iter().map(|Format { ending, note, .. }| format!(".{ending} ({note})")).collect();
     format!(
-        "The file to write; its ending is the format: {}; or .png with a place for the number, such as \
-         frames/%04d.png, for a PNG file a picture. A picture that is already there from the same scene and options \
-         is kept",
+        "The file to write, in the format of its ending: {}. A .png name with %d or %04d in it, such as \
+         frames/%04d.png, means a numbered file for each picture; pictures that an earlier run has written from the \
+         same scene and options are kept",
         formats.join(", ")
     )
 }
 
-/// The endings of the formats that pass, such as `.apng, .gif or .mp4`.
-fn endings(passes: impl Fn(&Format) -> bool) -> String {
-    let found: Vec<String> =
-        FORMATS.iter().filter(|format| passes(format)).map(|format| format!(".{}", format.ending)).collect();
-    match found.split_last() {
-        Some((last, [first @ .., before])) => [first, &[format!("{before} or {last}")]].concat().join(", "),
-        _ => found.concat(),
-    }
+/// The endings of the formats that can show `fps` pictures per second, such as `.apng, .mp4`.
+fn endings(fps: u16) -> String {
+    let fast = FORMATS.iter().filter(|format| format.max_fps >= fps);
+    fast.map(|format| format!(".{}", format.ending)).collect::<Vec<_>>().join(", ")
 }
 
 impl Target {
@@ -55,8 +51,7 @@ impl Target {
             || Some(Self::Sequence(Pattern::parse(path).filter(|_| ending.as_deref() == Some("png"))?));
         file.or_else(sequence).ok_or_else(|| {
             let message = format!("`{}` does not name an animation", path.display());
-            let help =
-                format!("it must end in {}, or be numbered PNG files: frames/%04d.png", endings(|_| true));
+            let help = format!("the formats are {}, and numbered PNG files: frames/%04d.png", endings(1));
             Error::new(Kind::Usage, message).with_help(help)
         })
     }
@@ -85,7 +80,7 @@ impl Target {
             return Ok(fps);
         }
         let message = format!("--fps {fps}: a .{ending} file shows at most {most} pictures per second");
-        let help = format!("lower --fps to {most}, or write {}", endings(|format| format.max_fps >= fps));
+        let help = format!("lower --fps to {most}, or choose another format: {}", endings(fps));
         Err(Error::new(Kind::Usage, message).with_help(help))
     }
 
@@ -148,12 +143,14 @@ mod tests {
         assert_eq!(fps("%d.png", None, 1e9), Ok(1000));
         assert_eq!(fps("a.apng", None, 0.1), Ok(1));
         let error = fps("a.gif", Some(51), 90.0).unwrap_err();
-        assert_eq!((error.kind, &*error.help), (Kind::Usage, "lower --fps to 50, or write .apng or .mp4"));
+        assert_eq!(
+            (error.kind, &*error.help),
+            (Kind::Usage, "lower --fps to 50, or choose another format: .apng, .mp4")
+        );
     }
 
     #[test]
     fn the_help_names_every_format() {
         assert!(FORMATS.iter().all(|format| help().contains(&format!(".{} (", format.ending))), "{}", help());
-        assert_eq!(endings(|_| true), ".apng, .gif or .mp4");
     }
 }

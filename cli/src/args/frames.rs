@@ -1,9 +1,9 @@
-//! Which simulated frames an animation shows.
+//! A range of simulated frames.
 
 use std::ops::Range;
 use std::str::FromStr;
 
-/// Simulated frames from the first up to, but without, the last: `A..B`.
+/// Frames from A to B, without B: `A..B`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Frames(pub(crate) Range<u64>);
 
@@ -14,7 +14,7 @@ impl FromStr for Frames {
         let ends = text.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         match ends {
             Some((first, end)) if first < end => Ok(Self(first..end)),
-            _ => Err("frames are A..B with A below B, such as 0..180; B itself is not shown".to_owned()),
+            _ => Err("expected A..B with A below B, such as 0..180; B is not included".to_owned()),
         }
     }
 }

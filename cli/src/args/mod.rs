@@ -1,4 +1,4 @@
-//! Options that several commands share.
+//! Arguments that several commands share.
 
 pub(crate) mod frames;
 pub(crate) mod render;

@@ -1,51 +1,53 @@
-//! What a picture looks like, as given on the command line.
+//! The arguments for how a scene is drawn.
 
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser;
 
+use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
 use drape::render::Options;
-use drape::scene::{Collider, MAX_RESOLUTION, Plan, Scene, Shader};
+use drape::scene::{Collider, Images, MAX_RESOLUTION, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
 #[derive(clap::Args)]
-pub(crate) struct Look {
+pub(crate) struct RenderArgs {
     /// Draw every object with this shader
     #[arg(long, value_name = "NAME", value_parser = shader())]
     shader: Option<Shader>,
-    /// Width and height in pixels, 1 to 16384
+    /// Width and height of the picture in pixels, each 1 to 16384 (default: the scene's render.size)
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
-    /// Samples per pixel: 1, 4, 8 or 16
+    /// Samples per pixel: 1, 4, 8 or 16 (default: the scene's render.samples)
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<u32>,
-    /// Latitude count of the drawn spheres, 2 to 1000
+    /// Latitude count of the mesh of each sphere, 2 to 1000
     #[arg(short = 'a', value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_RESOLUTION)))]
     latitudes: Option<u32>,
-    /// Longitude count of the drawn spheres, 3 to 1000
+    /// Longitude count of the mesh of each sphere, 3 to 1000
     #[arg(short = 'o', value_name = "N", value_parser = clap::value_parser!(u32).range(3..=i64::from(MAX_RESOLUTION)))]
     longitudes: Option<u32>,
-    /// Springs that a wireframe shows, separated by commas (default: those of the cloth)
+    /// Springs that the wireframe shader draws: structural, shearing, bending, separated by commas (default: those
+    /// that the cloth has)
     #[arg(long, value_name = "KINDS", value_parser = springs)]
     springs: Option<SpringKinds>,
-    /// Take all textures from this folder (texture_1.png .. and cube/posx.png ..); it replaces the built-in set
+    /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }
 
-/// What is told where `pictures` show the background alone.
-pub(crate) fn nothing_seen(pictures: &str) -> String {
-    format!(
-        "warning: nothing is seen in {pictures}: no object is where the camera looks\n  \
-         = help: look at camera.target, camera.distance, camera.near and camera.far, and at the moment, --time"
-    )
+/// Warns of `pictures` that show only the background.
+pub(crate) fn warn_of_nothing_visible(pictures: &str, ui: &Ui) {
+    ui.caution(
+        &format!("no object is visible in {pictures}"),
+        "check camera.target, camera.distance, camera.near and camera.far, and the time of the picture",
+    );
 }
 
-impl Look {
+impl RenderArgs {
     /// Writes the changes into `scene`.
     pub(crate) fn apply(&self, scene: &mut Scene) {
         scene.render.size = self.size.unwrap_or(scene.render.size);
@@ -62,16 +64,16 @@ impl Look {
         }
     }
 
-    /// Where textures come from.
+    /// Where textures are read from.
     pub(crate) fn textures(&self) -> TextureSource {
         self.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder)
     }
 
-    /// Every file of the folder that may be read as a texture of `scene`.
+    /// Every file of the folder of textures that may be read for `scene`.
     pub(crate) fn inputs(&self, scene: &Scene) -> Vec<PathBuf> {
-        let plan = Plan::of(scene);
-        let faces = plan.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
-        let names: Vec<String> = plan.textures.iter().cloned().chain(faces).collect();
+        let images = Images::of(scene);
+        let faces = images.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
+        let names: Vec<String> = images.textures.iter().cloned().chain(faces).collect();
         let file = |folder: &PathBuf, name: &str, ending| folder.join(format!("{name}.{ending}"));
         let folders = self.textures.iter();
         let files = folders.flat_map(|folder| {
@@ -80,7 +82,7 @@ impl Look {
         files.filter(|path| path.is_file()).collect()
     }
 
-    /// What is asked of the picture besides the scene.
+    /// The options of the renderer that are not in the scene.
     pub(crate) fn options(&self, ids: bool) -> Options {
         Options { springs: self.springs, ids, ..Options::default() }
     }
@@ -93,19 +95,19 @@ fn shader() -> impl TypedValueParser<Value = Shader> {
     })
 }
 
-/// Reads a width and a height, each 1 to 16384 pixels.
+/// Parses a width and a height, each 1 to 16384 pixels.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |digits: &str| digits.parse().ok().filter(|pixels| (1..=16_384).contains(pixels));
     let read = || {
         let (width, height) = text.split_once('x')?;
         Some([side(width)?, side(height)?])
     };
-    read().ok_or_else(|| "a size is WxH such as 1024x800, each 1 to 16384".to_owned())
+    read().ok_or_else(|| "expected WxH, such as 1024x800, each from 1 to 16384".to_owned())
 }
 
 fn samples(text: &str) -> Result<u32, String> {
     let count = text.parse().ok().filter(|count| [1, 4, 8, 16].contains(count));
-    count.ok_or_else(|| "allowed are 1, 4, 8 and 16".to_owned())
+    count.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
 fn springs(text: &str) -> Result<SpringKinds, String> {
@@ -115,7 +117,7 @@ fn springs(text: &str) -> Result<SpringKinds, String> {
             "structural" => kinds.structural = true,
             "shearing" => kinds.shearing = true,
             "bending" => kinds.bending = true,
-            _ => return Err(format!("`{name}` is none of structural, shearing, bending")),
+            _ => return Err(format!("`{name}` is not structural, shearing or bending")),
         }
     }
     Ok(kinds)

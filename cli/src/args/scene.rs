@@ -1,6 +1,6 @@
-//! The scene that a command works on: its file, changes from outside, and the moment.
+//! The arguments for a scene: its file, changes to it, and the moment to simulate to.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::run::advance::Until;
 use crate::session::Session;
@@ -17,19 +17,19 @@ pub(crate) struct SceneArgs {
     changes: Changes,
 }
 
-/// Changes to a scene from outside its file.
+/// Changes to a scene file.
 #[derive(clap::Args)]
 pub(crate) struct Changes {
-    /// Change the scene by a JSON merge patch (RFC 7396), repeatable; patches come before sets
+    /// Change the scene by a JSON merge patch (RFC 7396); repeatable. Patches are applied before --set
     #[arg(long = "patch", value_name = "FILE")]
     patches: Vec<PathBuf>,
-    /// Change one value of the scene, such as cloth.ks=500, repeatable; quote what has brackets
+    /// Change one value of the scene, such as cloth.ks=500; repeatable. Quote brackets: 'light.color=[1,0,0]'
     #[arg(long = "set", value_name = "PATH=JSON")]
     sets: Vec<String>,
 }
 
 impl SceneArgs {
-    /// The scene; its warnings are told.
+    /// Reads the scene and prints its warnings.
     pub(crate) fn load(&self, session: &Session) -> Result<Scene> {
         let loaded = scene::load(&self.path, &self.changes.overrides())?;
         loaded.warnings.iter().for_each(|warning| session.ui.warn(warning));
@@ -41,21 +41,21 @@ impl SceneArgs {
         self.changes.overrides()
     }
 
-    /// The scene changed further by `sets`; its warnings are not told again.
+    /// Reads the scene with `sets` as further changes; its warnings are not printed again.
     pub(crate) fn load_with(&self, sets: &[&str]) -> Result<Scene> {
         let mut overrides = self.changes.overrides();
         overrides.sets.extend(sets.iter().map(|&set| set.to_owned()));
         scene::load(&self.path, &overrides).map(|loaded| loaded.scene)
     }
 
-    /// The scene of the files built into the program, called as they are in the repository.
+    /// Reads a scene file that is built into the program, by its path in the repository.
     pub(crate) fn load_stock(&self) -> Result<Scene> {
         scene::load_stock(&self.path, &self.changes.overrides()).map(|loaded| loaded.scene)
     }
 
-    /// Every file that is read.
-    pub(crate) fn inputs(&self) -> Vec<&Path> {
-        [&self.path].into_iter().chain(&self.changes.patches).map(PathBuf::as_path).collect()
+    /// Every file that [`SceneArgs::load`] reads.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        [&self.path].into_iter().chain(&self.changes.patches).cloned().collect()
     }
 }
 
@@ -66,35 +66,36 @@ impl Changes {
     }
 }
 
-/// A moment of the simulation.
+/// The moment to simulate to.
 #[derive(clap::Args)]
 pub(crate) struct Moment {
-    /// Simulated time in seconds, rounded to a frame (default: the scene's render.time)
+    /// Simulated time in seconds, rounded to the nearest frame (default: the scene's render.time)
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]
     time: Option<f64>,
-    /// Frame number; 0 is the start
+    /// Number of the frame, instead of --time; 0 is the start
     #[arg(long, value_name = "N")]
     frame: Option<u64>,
-    /// Go on until the cloth is at rest, at most to --time or --frame (default: 60 s); exit code 1, after the results, if it is not
+    /// Simulate until the cloth is at rest, at most until --time or --frame (default: 60 s). If it is not at rest by
+    /// then, the results are written and the exit code is 1
     #[arg(long)]
     until_rest: bool,
     #[command(flatten)]
-    pub(crate) leniency: Leniency,
+    pub(crate) stability: StabilityArgs,
 }
 
-/// Simulated time in which a cloth has to come to rest, in seconds.
+/// The default limit of `--until-rest`, in simulated seconds.
 pub(crate) const REST_TIME: f64 = 60.0;
 
-/// Which checks are left out.
+/// Whether the checks for stability are errors.
 #[derive(clap::Args)]
-pub(crate) struct Leniency {
-    /// Simulate even a cloth whose steps are too large to be stable
+pub(crate) struct StabilityArgs {
+    /// Simulate even if the step is too long for the springs, or the energy grows
     #[arg(long)]
     pub(crate) allow_unstable: bool,
 }
 
 impl Moment {
-    /// The frame, or the last one in which the cloth may come to rest.
+    /// The last frame, and whether the cloth must come to rest by then.
     pub(crate) fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));
         Until { frames: self.frame.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
@@ -113,8 +114,8 @@ pub(crate) fn frame_at(time: Option<f64>, scene: &Scene) -> u64 {
     frame
 }
 
-/// Reads a time with the bounds of `render.time`, in seconds.
+/// Parses a time in seconds, with the bounds of `render.time`.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|seconds| (0.0..=1e6).contains(seconds));
-    number.ok_or_else(|| "a time is a number of seconds from 0 to 1000000".to_owned())
+    number.ok_or_else(|| "expected a number of seconds from 0 to 1000000".to_owned())
 }

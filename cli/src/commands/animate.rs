@@ -1,6 +1,6 @@
 //! `drape animate`: a scene in motion.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
@@ -12,8 +12,8 @@ use crate::animation::schedule::FrameSchedule;
 use crate::animation::sequence::Sequence;
 use crate::animation::target::{self, Target};
 use crate::args::frames::Frames;
-use crate::args::render::{Look, nothing_seen};
-use crate::args::scene::{Leniency, SceneArgs, frame_at, seconds};
+use crate::args::render::{RenderArgs, warn_of_nothing_visible};
+use crate::args::scene::{SceneArgs, StabilityArgs, frame_at, seconds};
 use crate::run::start::start;
 use crate::session::Session;
 use crate::session::files::outputs;
@@ -22,30 +22,30 @@ use drape::error::{Error, Kind, Result};
 use drape::render::Renderer;
 use drape::scene::Scene;
 
-/// What `animate` takes.
+/// The arguments of `animate`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     #[arg(value_name = "OUT", help = target::help())]
     out: PathBuf,
-    /// Simulated frames from A up to, without, B; frame 0 is the start (default: those of --time)
+    /// Show the simulated frames from A to B, without B; frame 0 is the start (default: those of --time)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
-    /// Simulated seconds to show from the start (default: the scene's render.time)
+    /// Show this many simulated seconds from the start (default: the scene's render.time)
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
     time: Option<f64>,
-    /// Pictures per second, 1 to 1000. It plays in real time: picture k shows the simulated frame nearest to
-    /// k / N seconds after the first (default: every frame, but at most 50 a second in a GIF)
+    /// Pictures per second, 1 to 1000 (default: the simulated frames per second, as far as the format can). The
+    /// animation plays in real time: picture k shows the simulated frame nearest to k / N seconds after the first
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=u64::from(MAX_FPS)))]
     fps: Option<u16>,
     #[command(flatten)]
-    look: Look,
+    render: RenderArgs,
     #[command(flatten)]
-    leniency: Leniency,
+    stability: StabilityArgs,
 }
 
-/// What was drawn.
+/// The summary.
 #[derive(Serialize)]
 struct Summary {
     out: String,
@@ -53,7 +53,7 @@ struct Summary {
     height: u32,
     fps: u16,
     pictures: u64,
-    /// Pictures that an earlier run had left.
+    /// Pictures kept from an earlier run.
     kept: u64,
     seconds: f64,
 }
@@ -61,7 +61,7 @@ struct Summary {
 /// Simulates, draws and encodes at the same time.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut scene = args.scene.load(session)?;
-    args.look.apply(&mut scene);
+    args.render.apply(&mut scene);
     let target = Target::parse(&args.out)?;
     let [width, height] = scene.render.size;
     let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)? };
@@ -69,8 +69,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.check_outputs(&scene, &target, &schedule)?;
     target.check(playback)?;
     // All inputs are read before anything is simulated.
-    let renderer = Renderer::new(&scene, &args.look.textures())?;
-    let options = args.look.options(false);
+    let renderer = Renderer::new(&scene, &args.render.textures())?;
+    let options = args.render.options(false);
     let sequence = target
         .pattern()
         .map(|pattern| Sequence { pattern, fingerprint: Fingerprint::new(&scene, &renderer, &options) });
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         Pipeline { target: &target, playback, schedule: &schedule, renderer: &renderer, options, sequence };
     let drawn = match pipeline.last_missing(session)? {
         Some(last) => {
-            let allowed = args.leniency.allow_unstable;
+            let allowed = args.stability.allow_unstable;
             let simulation = start(&scene, schedule.frame(last), allowed, session)?;
             pipeline.run(last, simulation, session).map_err(|e| target.stopped(e))?
         }
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     };
     args.finish(playback, &schedule, schedule.count() - drawn.pictures, session)?;
     if !drawn.visible {
-        session.ui.note(&nothing_seen("the pictures"));
+        warn_of_nothing_visible("the pictures", &session.ui);
     }
     Ok(())
 }
@@ -104,14 +104,12 @@ impl Args {
 
     /// Checks the output before any long work.
     fn check_outputs(&self, scene: &Scene, target: &Target, schedule: &FrameSchedule) -> Result<()> {
-        let textures = self.look.inputs(scene);
-        let inputs: Vec<&Path> =
-            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
         let Some(pattern) = target.pattern() else {
             return outputs::check(&inputs, [(self.out.as_path(), Content::Binary)]);
         };
         if !pattern.folder().as_os_str().is_empty() && !pattern.folder().exists() {
-            // It is made, but not the folder that it is in.
+            // The folder is created, but its parent is not.
             return outputs::check(&inputs, [(pattern.folder(), Content::Binary)]);
         }
         let clashes = inputs.iter().filter_map(|path| pattern.number(path));
@@ -133,7 +131,7 @@ impl Args {
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };
         let line =
-            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} a second, {seconds} s");
+            format!("{out}: {pictures} pictures{old}, {width} x {height}, {fps} per second, {seconds} s");
         session.report(&Summary { out, width, height, fps, pictures, kept, seconds }, &line)
     }
 }

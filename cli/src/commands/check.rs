@@ -1,4 +1,4 @@
-//! `drape check`: everything that is wrong in scene files, and what would fail later; nothing run.
+//! `drape check`: every error of scene files, and what would stop a later command. Nothing is simulated.
 
 use std::collections::BTreeSet;
 use std::io::IsTerminal;
@@ -9,13 +9,13 @@ use serde::Serialize;
 use crate::args::scene::Changes;
 use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
-use crate::session::ui::paint;
+use crate::session::ui::{help_lines, paint};
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
-use drape::scene::{self, Material, Plan, Scene};
+use drape::scene::{self, Images, Material, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
 
-/// What `check` takes.
+/// The arguments of `check`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The scene files (JSON)
@@ -23,31 +23,31 @@ pub(crate) struct Args {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     changes: Changes,
-    /// Look for textures in this folder instead of the built-in set
+    /// Read textures from this folder instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }
 
-/// What was found in all files.
+/// The findings in all files.
 #[derive(Serialize)]
 struct Report {
     files: Vec<Findings>,
 }
 
-/// What was found in one file.
+/// The findings in one file.
 #[derive(Serialize)]
 struct Findings {
     file: String,
     errors: Vec<Diagnostic>,
     warnings: Vec<Diagnostic>,
-    /// Why the file could not be checked, if so.
+    /// Why the file could not be checked, if it could not.
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<String>,
     #[serde(skip)]
     kind: Option<Kind>,
 }
 
-/// Prints what was found; the worst of it decides the exit code.
+/// Prints the findings; the worst of them decides the exit code.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let mut files = Vec::new();
@@ -63,11 +63,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     session.print(&Report { files }, &text)?;
     match worst {
         None => Ok(()),
-        Some(kind) => Err(Error::new(kind, format!("{count} of {total} scenes are not valid"))),
+        Some(kind) => Err(Error::new(kind, format!("{count} of {total} scene files are not valid"))),
     }
 }
 
-/// A wrong scene counts before a file that cannot be read.
+/// An invalid scene is worse than a file that cannot be read.
 fn worse(a: Kind, b: Kind) -> Kind {
     if a == Kind::Scene { a } else { b }
 }
@@ -94,8 +94,8 @@ fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
     findings
 }
 
-/// What would stop a later command, though the scene itself is valid: textures that cannot be read,
-/// a cloth that cannot be moved.
+/// What would stop a later command, although the scene is valid: a texture that cannot be read, or a step that
+/// is unstable.
 fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
     let [images, cubes] = names(scene);
     let images = images.iter().filter_map(|name| textures.texture(name).err());
@@ -106,11 +106,11 @@ fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnost
     warnings
 }
 
-/// The textures and the cube maps to look for: those that the scene's shaders read, and those whose
-/// name is not built in, which were named to be read by another shader.
+/// The textures and the cube maps to check: those that the shaders of the scene read, and those whose name is
+/// not built in, which only a change of the shader would read.
 fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
-    let plan = Plan::of(scene);
-    let [mut images, mut cubes] = [plan.textures, plan.environments].map(BTreeSet::from_iter);
+    let Images { textures, environments } = Images::of(scene);
+    let [mut images, mut cubes] = [textures, environments].map(BTreeSet::from_iter);
     for Material { texture, height_map, environment, .. } in scene.materials() {
         images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
         cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());
@@ -118,7 +118,7 @@ fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
     [images, cubes]
 }
 
-/// Why the first step would be refused, if it would.
+/// The error before the first step, if there would be one.
 fn instability(scene: &Scene) -> Option<Error> {
     let cloth = scene.cloth.as_ref()?;
     match Stability::of_bounded(cloth, &scene.sim) {
@@ -130,13 +130,10 @@ fn instability(scene: &Scene) -> Option<Error> {
     }
 }
 
-/// A failure to come, at no place of the file.
+/// A warning of a later error, which belongs to no place in the file.
 fn warning(file: &str, code: &'static str, error: &Error) -> Diagnostic {
     let Error { message, help, .. } = error;
-    let mut rendered = format!("warning[{code}]: {message}\n --> {file}");
-    if !help.is_empty() {
-        rendered += &format!("\n  = help: {help}");
-    }
+    let rendered = format!("warning[{code}]: {message}\n --> {file}{}", help_lines(help));
     let (message, help, file) = (message.clone(), help.clone(), file.to_owned());
     Diagnostic { code, message, file, line: 0, column: 0, key: String::new(), help, rendered }
 }

@@ -14,24 +14,24 @@ use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, Difference, difference_picture};
 use drape::output::png::{self, Effort, Pixels};
-use drape_lab::page::{self, html};
+use drape_lab::page::{self, comparison::Row};
 
-/// What `compare` takes.
+/// The arguments of `compare`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The expected picture (PNG), or a folder of them
+    /// The expected picture (PNG), or a folder of pictures
     #[arg(value_name = "A")]
     expected: PathBuf,
-    /// The actual picture, or a folder with pictures of the same names
+    /// The actual picture, or a folder of pictures with the same names
     #[arg(value_name = "B")]
     actual: PathBuf,
-    /// Allow COUNT pixels to differ by at most MAGNITUDE (1 to 255), repeatable; none may differ by more
+    /// Allow COUNT pixels to differ by up to MAGNITUDE (1 to 255); repeatable. No pixel may differ by more
     #[arg(long, value_name = "MAGNITUDE:COUNT")]
     budget: Vec<Budget>,
-    /// Write the difference of two pictures as a picture (`-` = standard output)
+    /// Write the difference of two pictures to this PNG file (`-` for standard output)
     #[arg(long, value_name = "FILE")]
     diff: Option<PathBuf>,
-    /// Write a page that shows expected, difference and actual side by side
+    /// Write a page that shows the expected picture, the difference and the actual picture side by side
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
 }
@@ -62,17 +62,17 @@ struct Folders {
 
 /// Compares and prints; a difference beyond the budgets is an error of [`Kind::Difference`].
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let inputs = [args.expected.as_path(), args.actual.as_path()];
+    let inputs = [args.expected.clone(), args.actual.clone()];
     let files = [(&args.diff, Content::Binary), (&args.html, Content::Text)];
     outputs::check(&inputs, files.iter().filter_map(|(path, content)| Some((path.as_deref()?, *content))))?;
-    for path in inputs {
+    for path in &inputs {
         fs::metadata(path)
             .map_err(|e| Error::new(Kind::Io, format!("cannot read `{}`: {e}", path.display())))?;
     }
-    match inputs.map(Path::is_dir) {
+    match inputs.map(|path| path.is_dir()) {
         [false, false] => compare_files(args, session),
         [true, true] => compare_folders(args, session),
-        _ => Err(Error::new(Kind::Usage, "one of A and B is a folder and the other is not")),
+        _ => Err(Error::new(Kind::Usage, "one of A and B is a folder and the other is a file")),
     }
 }
 
@@ -95,11 +95,12 @@ fn compare_files(args: &Args, session: &Session) -> Result<()> {
 
 fn compare_folders(args: &Args, session: &Session) -> Result<()> {
     if args.diff.is_some() {
-        return Err(Error::new(Kind::Usage, "--diff is for two pictures").with_help("--html shows folders"));
+        return Err(Error::new(Kind::Usage, "--diff compares two pictures, not folders")
+            .with_help("use --html for folders"));
     }
     let [in_a, in_b] = [picture_names(&args.expected)?, picture_names(&args.actual)?];
     if in_a.is_empty() && in_b.is_empty() {
-        return Err(Error::new(Kind::Nothing, "neither folder holds a PNG picture"));
+        return Err(Error::new(Kind::Nothing, "neither folder contains a PNG picture"));
     }
     let mut text = page::head("Comparison");
     let mut folders = Folders {
@@ -187,17 +188,17 @@ impl Folders {
         text
     }
 
-    /// A picture that differs or is gone counts before one that nothing is expected of.
+    /// A picture that differs or is missing in B is an error before one that is missing in A.
     fn verdict(&self) -> Result<()> {
         let differing = self.pictures.iter().filter(|c| !c.within_budget).count();
         let missing = self.only_in_a.len();
         verdict(differing + missing == 0, || {
-            format!("{differing} pictures differ and {missing} are missing in B")
+            format!("pictures that differ: {differing}, pictures that are missing in B: {missing}")
         })?;
         match self.only_in_b.as_slice() {
             [] => Ok(()),
             [name, ..] => {
-                Err(Error::new(Kind::Nothing, format!("A holds no picture to compare `{name}` with")))
+                Err(Error::new(Kind::Nothing, format!("A has no picture named `{name}` to compare with")))
             }
         }
     }
@@ -209,7 +210,7 @@ fn verdict(same: bool, message: impl Fn() -> String) -> Result<()> {
 
 fn row(comparison: &Comparison, pictures: &[Pixels; 2]) -> Result<String> {
     let [expected, actual] = pictures;
-    html::row(&html::Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] })
+    Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] }.html()
 }
 
 fn shown(path: impl AsRef<Path>) -> String {

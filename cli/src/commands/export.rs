@@ -16,19 +16,19 @@ use drape::mesh::Mesh;
 use drape::output::obj;
 use drape::scene::Needs;
 
-/// What `export` takes.
+/// The arguments of `export`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The mesh file to write (`-` = standard output)
+    /// The mesh to write, an OBJ file (`-` for standard output)
     #[arg(value_name = "OUT.obj")]
     mesh: PathBuf,
     #[command(flatten)]
     moment: Moment,
 }
 
-/// What was exported.
+/// The summary.
 #[derive(Serialize)]
 struct Summary {
     mesh: String,
@@ -47,11 +47,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
     };
-    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let points = simulation.positions();
     let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
-    // The simulation's own numbers, which the drawn mesh rounds.
+    // In f64, as simulated: the mesh that is drawn has f32.
     let positions: Vec<[f64; 3]> = (0..points.len()).map(|i| points.get(i).into()).collect();
     let text = obj::encode(&positions, &mesh.uvs, &mesh.normals, &mesh.triangles)?;
     atomic::write(&args.mesh, text.as_bytes())?;
@@ -60,5 +60,5 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mesh = args.mesh.display().to_string();
     let line = format!("{mesh}: {points} points, {triangles} triangles, frame {frame}, {time} s");
     session.report(&Summary { mesh, frame, time, points, triangles }, &line)?;
-    moved.result()
+    ended.result()
 }

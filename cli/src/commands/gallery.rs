@@ -1,4 +1,4 @@
-//! `drape gallery`: every figure of the report, and a page of them.
+//! `drape gallery`: every figure of the report, and a page that shows them.
 
 use std::path::PathBuf;
 
@@ -12,39 +12,39 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
-use drape_lab::gallery::page::{self, Entry};
+use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
-use drape_lab::gallery::table::{Part, Picture, parts};
+use drape_lab::gallery::table::{Picture, parts_called};
 
 /// The name of the page.
 const INDEX: &str = "index.html";
 
-/// What `gallery` takes.
+/// The arguments of `gallery`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder for the pictures and index.html
+    /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Make this figure, or if none is called so all whose names begin so, such as `part5`, repeatable (default: all
-    /// 51, in 56 pictures, since five have another beside them); the page then shows no other
+    /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
+    /// repeatable (default: all 51 figures, in 56 pictures: five figures have a second picture beside them)
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Width and height of the pictures in pixels (default: the report's 1024x800)
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
-    /// Write the pictures alone: no page and no energy ledger, which takes three quarters of the time
+    /// Write only the pictures: no page, and no energy ledger, which takes three quarters of the time
     #[arg(long)]
     pictures: bool,
 }
 
-/// What was made.
+/// The summary.
 #[derive(Serialize)]
 struct Summary<'a> {
     folder: String,
     pictures: Vec<Made<'a>>,
 }
 
-/// One picture that was made.
+/// One picture.
 #[derive(Serialize)]
 struct Made<'a> {
     name: &'a str,
@@ -52,9 +52,9 @@ struct Made<'a> {
     state: State,
 }
 
-/// Makes the pictures, then writes them and the page.
+/// Draws all pictures, then writes them and the page.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let parts = args.parts()?;
+    let parts = parts_called(&args.only)?;
     let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
     let shots = pictures.iter().map(|picture| args.shot(picture)).collect::<Result<Vec<Shot>>>()?;
     let files: Vec<PathBuf> =
@@ -69,33 +69,13 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         atomic::write(file, &shown.png)?;
     }
     if !args.pictures {
-        atomic::write(&index, text(&parts, &shots, &shown).as_bytes())?;
+        atomic::write(&index, page::page(&parts, &shots, &shown).as_bytes())?;
     }
     let figures = parts.iter().map(|part| part.figures.len()).sum();
     args.finish(figures, &pictures, &shown, session)
 }
 
 impl Args {
-    /// The figures that are asked for.
-    fn parts(&self) -> Result<Vec<Part>> {
-        let mut parts = parts()?;
-        let names: Vec<String> =
-            parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
-        let is_asked = |figure: &str, text: &String| {
-            figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
-        };
-        if let Some(text) = self.only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
-            let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
-            return Err(error.with_help(format!("the figures are {}", names.join(", "))));
-        }
-        if !self.only.is_empty() {
-            for part in &mut parts {
-                part.figures.retain(|figure| self.only.iter().any(|text| is_asked(figure.name(), text)));
-            }
-        }
-        Ok(parts)
-    }
-
     fn shot(&self, picture: &Picture) -> Result<Shot> {
         let mut shot = read(picture)?;
         shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
@@ -124,13 +104,13 @@ fn read(picture: &Picture) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
     let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
     let mut scene = render.scene.load_stock()?;
-    render.look.apply(&mut scene);
+    render.render.apply(&mut scene);
     let until = render.moment.until(&scene);
     if until.rest {
         return Err(wrong("its moment is known only at the end".to_owned()));
     }
-    let allow_unstable = render.moment.leniency.allow_unstable;
-    Ok(Shot { scene, options: render.look.options(false), frame: until.frames, allow_unstable })
+    let allow_unstable = render.moment.stability.allow_unstable;
+    Ok(Shot { scene, options: render.render.options(false), frame: until.frames, allow_unstable })
 }
 
 /// Takes the pictures and tells how far it is.
@@ -145,41 +125,15 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
     Ok(shown)
 }
 
-/// The page of all that was made.
-fn text(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
-    let mut made = shots.iter().zip(shown);
-    let mut entry = |figure| Entry::new(figure, &mut made);
-    let parts: Vec<_> =
-        parts.iter().map(|part| (part, part.figures.iter().map(&mut entry).collect())).collect();
-    page::page(&parts)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use drape::diagnostics::stability::Stability;
+    use drape_lab::gallery::table::parts;
 
     fn pictures() -> Vec<Picture> {
         let parts = parts().unwrap();
         parts.into_iter().flat_map(|part| part.figures).flat_map(|figure| figure.pictures).collect()
-    }
-
-    #[test]
-    fn figures_are_picked_by_their_name_or_its_beginning() {
-        let picked = |only: &[&str]| {
-            let only = only.iter().map(|&name| name.to_owned()).collect();
-            let args = Args { out: PathBuf::new(), only, size: None, pictures: false };
-            let parts = args.parts().map_err(|e| e.kind)?;
-            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
-        };
-        let part5 = picked(&["part5"]).unwrap();
-        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
-        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
-        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
-        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
-        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
-        assert_eq!(picked(&[]).unwrap().len(), 51);
-        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
     }
 
     /// `render` refuses a cloth that is certain to blow up; the gallery does not ask.

@@ -1,4 +1,4 @@
-//! `drape info`: what a scene needs and what is therefore left out.
+//! `drape info`: what a scene needs and does not need, and whether its step is stable.
 
 use serde::Serialize;
 
@@ -8,16 +8,16 @@ use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
-use drape::scene::{Cloth, Item, PerKind, Plan, Scene};
+use drape::scene::{Cloth, Item, PerKind, Scene, plan};
 
-/// What `info` takes.
+/// The arguments of `info`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
 }
 
-/// What is known of a scene without running it.
+/// What is known about a scene without simulating it.
 #[derive(Serialize)]
 struct Info {
     size: [u32; 2],
@@ -33,7 +33,7 @@ struct Info {
     needs: Vec<Item>,
 }
 
-/// The size of the cloth and how its springs stand the step.
+/// The size of the cloth, and its step.
 #[derive(Serialize)]
 struct ClothInfo {
     points: [usize; 2],
@@ -45,30 +45,31 @@ struct ClothInfo {
     mass: f64,
     dt: f64,
     integrator: &'static str,
-    /// How the springs stand the step; nothing for an integrator without a largest step.
+    /// The stability bound; nothing for an integrator that has none.
     #[serde(flatten)]
     bound: Option<Bound>,
     stable: &'static str,
 }
 
-/// The step of an explicit integrator against the fastest vibrations of the springs.
+/// The step of an explicit integrator and its stability bound, which depends on the fastest vibration of the
+/// springs (`dt·ω`).
 #[derive(Serialize)]
 struct Bound {
     dt_omega_rest: f64,
     dt_omega_worst: f64,
     dt_omega_limit: f64,
-    /// The same at worst, where a cloth without damping has a lower one.
+    /// The limit at worst, which is lower without damping.
     dt_omega_limit_worst: f64,
     fewest_steps_rest: f64,
     fewest_steps_worst: f64,
-    /// The most ks at this step, N/m; nothing for springs without stiffness, which have none.
+    /// The largest stable ks at this step, N/m; nothing for springs without stiffness.
     largest_ks_rest: Option<f64>,
     largest_ks_worst: Option<f64>,
     #[serde(skip)]
     steps_per_frame: u32,
 }
 
-/// The largest arrays, in bytes; a lower bound of what a run takes.
+/// The size of the largest arrays, in bytes: a lower bound of the memory of a run.
 #[derive(Serialize)]
 struct Memory {
     cloth: u64,
@@ -94,7 +95,7 @@ impl Info {
             cloth: scene.cloth.as_ref().map(|cloth| ClothInfo::of(cloth, scene)).transpose()?,
             colliders: scene.collider_counts(),
             memory: Memory::of(scene),
-            needs: Plan::of(scene).items,
+            needs: plan(scene),
         })
     }
 
@@ -104,8 +105,8 @@ impl Info {
         let colliders: Vec<String> =
             self.colliders.entries().map(|(plural, count)| format!("{plural} {count}")).collect();
         format!(
-            "picture     {width} x {height} pixels, samples {}\nmoment      {} s = frame {} of {} a second, {} steps each\n{}\
-             objects     {}\nmemory      cloth {}, picture {} bytes at least\n\n{needs}",
+            "picture     {width} x {height} pixels, samples {}\ntime        {} s = frame {}, at {} frames per second and {} steps per frame\n{}\
+             objects     {}\nmemory      at least {} bytes for the cloth, {} for the picture\n\n{needs}",
             self.samples,
             self.time,
             self.frames,
@@ -145,7 +146,7 @@ impl ClothInfo {
         let Self { structural, shearing, bending, pinned, mass, dt, integrator, stable, .. } = self;
         let step = match &self.bound {
             Some(bound) => bound.text(stable),
-            None => ", no bound; the energy is watched while it runs\n".into(),
+            None => ", no stability bound; the energy is checked during the run\n".into(),
         };
         format!(
             "cloth       {w} x {h} = {} points, pinned {pinned}, {mass} kg each\n\
@@ -187,7 +188,7 @@ impl Bound {
             String::new()
         };
         format!(
-            ", dt * omega {:.4} at rest and {:.4} at worst, stable below {:.4}{undamped}: {stable}\n\
+            ", dt·ω {:.4} at rest and {:.4} at worst, limit {:.4}{undamped}: {stable}\n\
              steps       at least {} per frame at rest, {} at worst\n{ks}",
             self.dt_omega_rest,
             self.dt_omega_worst,

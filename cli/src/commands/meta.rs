@@ -1,4 +1,4 @@
-//! `drape schema`, `completions` and `man`: what other programs want to know of this one.
+//! `drape schema`, `completions` and `man`: descriptions of scene files and of this program.
 
 use clap::Command;
 use clap_complete::Shell;
@@ -7,28 +7,28 @@ use crate::session::Session;
 use drape::error::{Error, Kind, Result};
 use drape::scene;
 
-/// What `completions` takes.
+/// The arguments of `completions`.
 #[derive(clap::Args)]
 pub(crate) struct CompletionsArgs {
-    /// The shell that reads the script
+    /// The shell to print the script for
     #[arg(value_name = "SHELL")]
     shell: Shell,
 }
 
-/// What `man` takes.
+/// The arguments of `man`.
 #[derive(clap::Args)]
 pub(crate) struct ManArgs {
-    /// The command whose page is wanted (default: the page that lists all)
+    /// The command to print the page of (default: the page of drape, which lists all commands)
     #[arg(value_name = "COMMAND")]
     command: Option<String>,
 }
 
-/// Prints the schema of scene files, for people to read.
+/// Prints the schema of scene files, indented.
 pub(crate) fn schema(session: &Session) -> Result<()> {
     session.print_text(format!("{:#}\n", scene::schema()))
 }
 
-/// Prints the script for `drape`, the grammar of the whole command line.
+/// Prints the completion script for `drape`, the grammar of the whole command line.
 pub(crate) fn completions(args: &CompletionsArgs, mut drape: Command, session: &Session) -> Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut drape, "drape", &mut script);
@@ -47,7 +47,7 @@ pub(crate) fn man(args: &ManArgs, mut drape: Command, session: &Session) -> Resu
     let mut text = Vec::new();
     clap_mangen::Man::new(page.name(name).version(env!("CARGO_PKG_VERSION")))
         .render(&mut text)
-        .map_err(|e| Error::new(Kind::Internal, format!("cannot write the page: {e}")))?;
+        .map_err(|e| Error::new(Kind::Internal, format!("cannot write the manual page: {e}")))?;
     session.print_text(text)
 }
 

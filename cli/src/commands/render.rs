@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use serde::Serialize;
 
-use crate::args::render::{Look, nothing_seen};
+use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{Moment, SceneArgs};
 use crate::run::advance::advance_until;
 use crate::run::bench;
@@ -22,34 +22,36 @@ use drape::render::{Picture, Renderer};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
-/// What `render` takes.
+/// The arguments of `render`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The picture to write, PNG (default: the scene's name with .png, in this folder; `-` = standard output)
+    /// The picture to write, a PNG file (default: the name of the scene with .png, in the current folder; `-` for
+    /// standard output)
     #[arg(value_name = "OUT.png")]
     picture: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) moment: Moment,
     #[command(flatten)]
-    pub(crate) look: Look,
-    /// Write the depth of each pixel, f32 little-endian, top row first
+    pub(crate) render: RenderArgs,
+    /// Write the depth of each pixel to this file: f32 little-endian, top row first (`-` for standard output)
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
-    /// Write object << 24 | (triangle + 1) of each pixel, 0 for the background, u32 little-endian
+    /// Write what each pixel shows to this file: object << 24 | (triangle + 1), or 0 for the background; u32
+    /// little-endian, top row first (`-` for standard output)
     #[arg(long, value_name = "FILE")]
     ids: Option<PathBuf>,
-    /// Print what drawing took: vertices, primitives, fragments
+    /// Print the statistics of drawing: counts of vertices, primitives and fragments
     #[arg(long)]
     stats: bool,
-    /// Draw the scene N times after a warm-up, write no picture, and print the times as JSON
+    /// Draw the picture N times after a warm-up and print the times as JSON; no picture is written
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..),
           conflicts_with_all = ["picture", "depth", "ids", "stats"])]
     bench: Option<u32>,
 }
 
-/// What was drawn.
+/// The summary.
 #[derive(Serialize)]
 struct Summary {
     picture: String,
@@ -63,15 +65,15 @@ struct Summary {
 /// Simulates, draws, writes.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut scene = args.scene.load(session)?;
-    args.look.apply(&mut scene);
+    args.render.apply(&mut scene);
     let until = args.moment.until(&scene);
     let path = args.picture_path()?;
     args.check_outputs(&path, &scene, session)?;
     // All inputs are read before anything is simulated.
-    let renderer = Renderer::new(&scene, &args.look.textures())?;
-    let mut simulation = start(&scene, until.frames, args.moment.leniency.allow_unstable, session)?;
-    let moved = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
-    let options = args.look.options(args.ids.is_some());
+    let renderer = Renderer::new(&scene, &args.render.textures())?;
+    let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    let options = args.render.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
     }
@@ -79,7 +81,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     session.signals.check()?;
     args.write(&path, &picture)?;
     args.finish(&path, &picture, &simulation, session)?;
-    moved.result()
+    ended.result()
 }
 
 impl Args {
@@ -93,18 +95,17 @@ impl Args {
         Ok(args)
     }
 
-    /// Where the picture goes.
+    /// The path of the picture.
     fn picture_path(&self) -> Result<PathBuf> {
         let beside = || Some(Path::new(self.scene.path.file_stem()?).with_extension("png"));
         match self.picture.clone().or_else(beside) {
             Some(path) => Ok(path),
-            None => {
-                Err(Error::new(Kind::Usage, "the picture needs a name").with_help("name it after the scene"))
-            }
+            None => Err(Error::new(Kind::Usage, "the scene has no file name to name the picture after")
+                .with_help("name the picture: drape render SCENE OUT.png")),
         }
     }
 
-    /// Checks all outputs before any long work; a benchmark has none.
+    /// Checks all outputs before any long work; with `--bench` there are none.
     fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
         if self.bench.is_some() {
             return Ok(());
@@ -113,9 +114,7 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let textures = self.look.inputs(scene);
-        let inputs: Vec<&Path> =
-            self.scene.inputs().into_iter().chain(textures.iter().map(PathBuf::as_path)).collect();
+        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
         outputs::check(&inputs, all)
     }
 
@@ -145,7 +144,7 @@ impl Args {
         let (frame, time) = (simulation.frame(), simulation.time());
         session.ui.note(&format!("{}: {width} x {height}, frame {frame}, {time} s", path.display()));
         if stats.fragments == 0 {
-            session.ui.note(&nothing_seen("the picture"));
+            warn_of_nothing_visible("the picture", &session.ui);
         }
         if !self.stats && !session.ui.json {
             return Ok(());

@@ -1,11 +1,11 @@
-//! `drape simulate`: runs a scene without drawing it.
+//! `drape simulate`: a scene without a picture.
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::args::scene::{Leniency, REST_TIME, SceneArgs, frame_at, seconds};
+use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at, seconds};
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::run::table::Table;
@@ -21,41 +21,44 @@ use drape::output::raw;
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
 
-/// What `simulate` takes.
+/// The arguments of `simulate`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Simulated time in seconds, rounded to a frame (default: the scene's render.time)
+    /// Simulated time in seconds, rounded to the nearest frame (default: the scene's render.time)
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
     time: Option<f64>,
-    /// Number of frames
+    /// Number of frames to simulate, instead of --time
     #[arg(long, value_name = "N")]
     frames: Option<u64>,
-    /// Go on until the cloth is at rest, at most to --time or --frames (default: 60 s); exit code 1 if it is not
+    /// Simulate until the cloth is at rest, at most until --time or --frames (default: 60 s). If it is not at rest
+    /// by then, the results are written and the exit code is 1
     #[arg(long)]
     until_rest: bool,
-    /// Write the last positions: x y z of each point, row by row, f64 little-endian (`-` = standard output)
+    /// Write the last positions to this file: x y z of each point, row by row, f64 little-endian (`-` for standard
+    /// output)
     #[arg(long, value_name = "FILE")]
     positions: Option<PathBuf>,
-    /// Write a row a frame: time, energies, what each phase put in or took out, extremes (`-` = standard output);
-    /// a run that blows up or does not come to rest leaves the rows up to its last good frame
+    /// Write a CSV table to this file, a row for each frame: time, energies, the energy that each phase added or
+    /// removed, largest stretch, smallest distance, largest speed (`-` for standard output). A run that blows up or
+    /// does not come to rest leaves the rows up to its last good frame
     #[arg(long, value_name = "FILE", conflicts_with = "bench")]
     csv: Option<PathBuf>,
-    /// Tell in the summary what each phase put in or took out; a step takes two to four times as long
+    /// Add to the summary the energy that each phase added or removed; a step takes two to four times as long
     #[arg(long, conflicts_with_all = ["bench", "hash"])]
     ledger: bool,
-    /// Print the number and the state hash of each frame instead of a summary
+    /// Print the number and the state hash of each frame instead of the summary
     #[arg(long)]
     hash: bool,
-    /// Print the time per step instead of a summary, as JSON
+    /// Print the time per step as JSON instead of the summary
     #[arg(long, conflicts_with = "hash")]
     bench: bool,
     #[command(flatten)]
-    leniency: Leniency,
+    stability: StabilityArgs,
 }
 
-/// What was simulated.
+/// The summary.
 #[derive(Serialize)]
 struct Summary {
     frames: u64,
@@ -66,7 +69,7 @@ struct Summary {
     counters: Counters,
     /// The energies at the end, in J.
     energy: Energy,
-    /// What each phase put in over the whole run, in J, if a ledger was kept.
+    /// The energy that each phase added over the run, in J, if a ledger was recorded.
     #[serde(skip_serializing_if = "Option::is_none")]
     ledger: Option<Ledger>,
     /// The state hash of each frame from 0, if asked for.
@@ -74,7 +77,7 @@ struct Summary {
     hashes: Vec<String>,
 }
 
-/// What the simulation took.
+/// The times of the simulation.
 #[derive(Serialize)]
 struct Bench {
     ns_per_substep: f64,
@@ -90,7 +93,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let until = args.until(&scene);
     args.check_outputs(session)?;
-    let mut simulation = start(&scene, until.frames, args.leniency.allow_unstable, session)?;
+    let mut simulation = start(&scene, until.frames, args.stability.allow_unstable, session)?;
     if args.bench {
         simulation.record_timings();
     }
@@ -99,21 +102,21 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         simulation.record_ledger()?;
     }
     let mut hashes = Vec::new();
-    let moved = advance_until(&mut simulation, &scene, until, session, |now| {
+    let ended = advance_until(&mut simulation, &scene, until, session, |now| {
         table.iter_mut().for_each(|table| table.row(now));
         args.take_hash(now, session, &mut hashes)
     });
-    let moved = args.write_failed(table.as_ref(), moved)?;
+    let ended = args.write_failed(table.as_ref(), ended)?;
     args.write_positions(&simulation)?;
     args.write_table(table.as_ref())?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum());
     if args.bench {
-        session.print_json(&bench(&simulation, springs, moved.elapsed))?;
+        session.print_json(&bench(&simulation, springs, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
         let summary = summary(&simulation, springs, hashes);
         session.print(&summary, &summary.text())?;
     }
-    moved.result()
+    ended.result()
 }
 
 impl Args {
@@ -133,7 +136,7 @@ impl Args {
         outputs::takes_stdout(&[&self.positions, &self.csv])
     }
 
-    /// Prints the hash of a frame at once, or keeps it where all are printed as one object.
+    /// Prints the hash of a frame, or stores it if all are printed as one JSON object.
     fn take_hash(&self, now: &Simulation, session: &Session, hashes: &mut Vec<String>) -> Result<()> {
         if !self.hash {
             return Ok(());
@@ -151,13 +154,13 @@ impl Args {
         pair.map_or(Ok(()), |(path, table)| atomic::write(path, table.text().as_bytes()))
     }
 
-    /// What came of a run; writes the table of one that blew up.
-    fn write_failed<T>(&self, table: Option<&Table>, moved: Result<T>) -> Result<T> {
-        if let Err(Error { kind: Kind::Unstable, .. }) = moved {
-            // Where the table cannot be written either, the run's own error tells more.
+    /// Passes on the end of a run; writes the table of a run that blew up.
+    fn write_failed<T>(&self, table: Option<&Table>, ended: Result<T>) -> Result<T> {
+        if let Err(Error { kind: Kind::Unstable, .. }) = ended {
+            // If this fails too, the error of the run says more.
             let _ = self.write_table(table);
         }
-        moved
+        ended
     }
 
     fn write_positions(&self, simulation: &Simulation) -> Result<()> {

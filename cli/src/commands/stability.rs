@@ -1,4 +1,4 @@
-//! `drape stability`: outcome over stiffness, density and step.
+//! `drape stability`: a map of where a cloth is stable, over stiffness, density and steps per frame.
 
 use std::path::{Path, PathBuf};
 
@@ -21,16 +21,16 @@ use drape_lab::stability_map::{Axes, Column, Map, page};
 const FULL: [&str; 3] = ["500..500000:log7", "1.5..1500:log4", "1..500:log10"];
 const QUICK: [&str; 3] = ["500..500000:log3", "1.5..1500:log3", "1..300:log6"];
 
-/// What `stability` takes.
+/// The arguments of `stability`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Folder for index.html and results.json
+    /// The folder for index.html and results.json
     #[arg(value_name = "OUT", default_value = "stability")]
     out: PathBuf,
-    /// Stiffness in N/m: `500..500000:log4` for 4 values with equal ratios, `:lin4` with equal differences, or
-    /// `500,5000` (default: 500..500000:log7; --quick: 500..500000:log3)
+    /// Stiffness in N/m: a list such as `500,5000`, or a range of 4 values with equal ratios, `500..500000:log4`, or
+    /// equal differences, `500..500000:lin4` (default: 500..500000:log7; --quick: 500..500000:log3)
     #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
     ks: Option<Values>,
     /// Density in kg/m², in the same form (default: 1.5..1500:log4; --quick: 1.5..1500:log3)
@@ -42,23 +42,24 @@ pub(crate) struct Args {
     /// Simulated time of each run, in seconds (default: 0.5; --quick: 0.2)
     #[arg(long, value_name = "S", value_parser = crate::args::scene::seconds)]
     time: Option<f64>,
-    /// A coarse map, shorter runs: half a minute of processor time for scenes/pinned2.json, instead of three minutes
+    /// A coarse map of shorter runs: half a minute of processor time for scenes/pinned2.json instead of three
+    /// minutes
     #[arg(long)]
     quick: bool,
 }
 
-/// What was found.
+/// The results.
 #[derive(Serialize)]
 struct Results<'a> {
     map: &'a Map,
     extremes: &'a [Row],
 }
 
-/// Tries every cell and every extreme, writes the page and the numbers, prints the thresholds.
+/// Runs every cell and every extreme, writes the page and the numbers, prints the thresholds.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let Some(cloth) = &scene.cloth else {
-        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is nothing to try"));
+        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no map of its stability"));
     };
     let files = ["index.html", "results.json"].map(|name| args.out.join(name));
     outputs::make_folder(&args.out)?;
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 impl Args {
     fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
         let axes = self.axes();
-        let total = axes.pieces() + extremes::len();
+        let total = axes.work() + extremes::len();
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);
@@ -107,7 +108,7 @@ impl Args {
     }
 }
 
-/// The thresholds, what came of the extremes, those that broke their promise, and where the page is.
+/// The thresholds, the outcome of the extremes and those with a wrong outcome, and the path of the page.
 fn text(map: &Map, rows: &[Row], index: &Path) -> String {
     let steps = |found: Option<f64>| found.map_or_else(|| "-".to_owned(), |steps| page::rate(steps, map.fps));
     let line = |column: &Column| {

@@ -1,4 +1,4 @@
-//! `drape study`: speed against accuracy.
+//! `drape study`: cost against accuracy.
 
 use std::path::{Path, PathBuf};
 
@@ -10,32 +10,33 @@ use crate::session::progress::Tally;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
-use drape_lab::study::matrix::{Extent, Source};
-use drape_lab::study::store::Store;
+use drape_lab::store::Store;
+use drape_lab::study::extent::Extent;
+use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
 
-/// What `study` takes.
+/// The arguments of `study`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The folder for index.html, results.json, results.csv and the finished cells (default: the scene's name with
-    /// -study)
+    /// The folder for index.html, results.json, results.csv and the finished runs (default: the name of the scene
+    /// with -study, in the current folder)
     #[arg(value_name = "OUT")]
     folder: Option<PathBuf>,
-    /// A small matrix, in under two minutes for a cloth of 50 x 50 points
+    /// Fewer runs, in under two minutes for a cloth of 50 x 50 points
     #[arg(long)]
     quick: bool,
-    /// Only runs with this in their name, however written, or with this integrator, and no pictures: `bdf2`,
-    /// `xpbd`, `BDF2 at 600 steps/s`, `k/m 8.33e4`; repeated: the runs of any of them
+    /// Only the runs whose name contains this text in upper or lower case, or that have this integrator, such as
+    /// `bdf2`, `BDF2 at 600 steps/s` or `k/m 8.33e4`; repeatable. No pictures are drawn
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
-    /// Take textures from this folder (texture_1.png .. and cube/posx.png ..) instead of the built-in set
+    /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }
 
-/// Runs what is not kept from an earlier study, writes the page, prints the advice.
+/// Runs what no earlier study has finished, writes the page and prints the advice.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.scene.load(session)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
@@ -52,8 +53,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let watch = |made: u32| {
         progress.add(u64::from(made));
         session.signals.check().map_err(|stopped| {
-            Error::new(stopped.kind, "stopped; what is finished is kept")
-                .with_help("the same command goes on from there")
+            Error::new(stopped.kind, "stopped; the finished runs are kept")
+                .with_help("run the same command again to do the rest")
         })
     };
     let study = study::run(&source, &textures, &extent, &store, &watch)?;
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     atomic::write(&json, &bytes)?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
     atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
-    session.ui.note(&format!("{}: the page", page.display()));
+    session.ui.note(&format!("{}: page written", page.display()));
     session.print(&results, &results.text())
 }
 
@@ -74,8 +75,10 @@ impl Args {
             let name = self.scene.path.file_stem()?.to_string_lossy();
             Some(Path::new(&format!("{name}-study")).to_owned())
         };
-        let missing =
-            || Error::new(Kind::Usage, "the folder needs a name").with_help("name it after the scene");
+        let missing = || {
+            Error::new(Kind::Usage, "the scene has no file name to name the folder after")
+                .with_help("name the folder: drape study SCENE OUT")
+        };
         self.folder.clone().or_else(beside).ok_or_else(missing)
     }
 }

@@ -1,4 +1,4 @@
-//! The simulation up to a frame, with progress and a way to stop it.
+//! A simulation is advanced to a frame or until it is at rest; signals stop it and progress is shown.
 
 use std::time::{Duration, Instant};
 
@@ -10,33 +10,33 @@ use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
-/// Until when a cloth is moved.
+/// Where a simulation ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Until {
     /// The last frame.
     pub(crate) frames: u64,
-    /// Whether the frame at which the cloth is at rest is the last one, and must come in time.
+    /// Whether it ends as soon as the cloth is at rest, which must be by the last frame.
     pub(crate) rest: bool,
 }
 
-/// What came of moving a cloth.
-pub(crate) struct Moved {
-    /// The wall time that it took.
+/// A simulation that has ended.
+pub(crate) struct Ended {
+    /// The wall time.
     pub(crate) elapsed: Duration,
-    /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not: it was checked,
-    /// though nothing failed, so it ends a command whose results are there.
-    pub(crate) restless: Option<Error>,
+    /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not. The command still
+    /// writes its results and returns this error last.
+    pub(crate) unsettled: Option<Error>,
 }
 
-impl Moved {
-    /// The end of a command whose results are written.
+impl Ended {
+    /// The result of a command that has written its results.
     pub(crate) fn result(self) -> Result<()> {
-        self.restless.map_or(Ok(()), Err)
+        self.unsettled.map_or(Ok(()), Err)
     }
 }
 
-/// Moves the cloth of `scene` on to the last frame; `each` sees the start and every frame. A scene
-/// without a cloth is always at rest.
+/// Advances the simulation of `scene` to its end; `each` is called at the start and after every frame. A
+/// scene without a cloth is always at rest.
 ///
 /// # Errors
 /// Those of the simulation and of `each`, and [`Kind::Signal`] between two frames.
@@ -46,11 +46,11 @@ pub(crate) fn advance_until(
     until: Until,
     session: &Session,
     mut each: impl FnMut(&Simulation) -> Result<()>,
-) -> Result<Moved> {
+) -> Result<Ended> {
     let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest) else {
         let last = if until.rest { 0 } else { until.frames };
         let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
-        return Ok(Moved { elapsed, restless: None });
+        return Ok(Ended { elapsed, unsettled: None });
     };
     let mut watch = RestWatch::new(cloth, &scene.sim, simulation.positions())?;
     let mut motion = None;
@@ -61,21 +61,21 @@ pub(crate) fn advance_until(
         }
         Ok(!motion.is_some_and(|motion| watch.is_rest(motion)))
     })?;
-    let restless = match motion {
+    let unsettled = match motion {
         Some(motion) if watch.is_rest(motion) => None,
         _ => Some(no_rest(simulation, motion, watch.limit())),
     };
-    Ok(Moved { elapsed, restless })
+    Ok(Ended { elapsed, unsettled })
 }
 
-/// Warns of steps that an implicit integrator did not solve.
+/// Warns of steps in which an implicit integrator did not reach its tolerance.
 pub(crate) fn warn_of_unsolved(simulation: &Simulation, session: &Session) {
     let Counters { steps, unsolved_steps, .. } = simulation.counters();
     if unsolved_steps > 0 {
-        session.ui.note(&format!(
-            "warning: {unsolved_steps} of {steps} steps left more than sim.tolerance of the forces unbalanced\n  \
-             = help: raise steps_per_frame, or sim.tolerance if so much is good enough"
-        ));
+        session.ui.caution(
+            &format!("in {unsolved_steps} of {steps} steps the solver did not reach sim.tolerance"),
+            "raise steps_per_frame, or raise sim.tolerance if a larger error is acceptable",
+        );
     }
 }
 
@@ -83,20 +83,21 @@ pub(crate) fn warn_of_unsolved(simulation: &Simulation, session: &Session) {
 fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Error {
     let does = motion.map_or_else(String::new, |motion| {
         format!(
-            ": a point moves at {:.3e} m/s (at rest at most {:.3e}), the residual force is {:.3e} m/s² of its \
-             mass (at most {:.3e})",
+            ": the fastest point moves at {:.3e} m/s (limit {:.3e}), the largest residual force per mass is {:.3e} \
+             m/s² (limit {:.3e})",
             motion.speed, limit.speed, motion.residual, limit.residual,
         )
     });
     let message = format!("not at rest after {} frames, {} s{does}", simulation.frame(), simulation.time());
     Error::new(Kind::Difference, message).with_help(
-        "the results are those of this frame; more time (--time) or damping may help, but not where the step is \
-         too long, nothing damps, or self-collision works against the stretch limit: see docs/restless.md",
+        "the results of this frame were written; a longer --time or more damping may help\nit does not help when \
+         the step is too long, nothing damps, or self-collision and the stretch limit oppose each other: see \
+         docs/restless.md",
     )
 }
 
-/// Moves `simulation` on to frame `frames` while `each`, which sees the start and every frame, says
-/// so. Returns the wall time that took.
+/// Advances `simulation` to frame `frames`, or until `each`, called at the start and after every frame,
+/// returns false. Returns the wall time.
 fn advance_while(
     simulation: &mut Simulation,
     frames: u64,
@@ -105,12 +106,12 @@ fn advance_while(
 ) -> Result<Duration> {
     let started = Instant::now();
     let mut progress = Progress::new(&session.ui, "simulating", frames);
-    let mut goes_on = each(simulation)?;
-    while goes_on && simulation.frame() < frames {
+    let mut continues = each(simulation)?;
+    while continues && simulation.frame() < frames {
         session.signals.check()?;
         simulation.advance_frame()?;
         progress.set(simulation.frame());
-        goes_on = each(simulation)?;
+        continues = each(simulation)?;
     }
     drop(progress);
     session.signals.check()?;

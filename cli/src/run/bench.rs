@@ -1,4 +1,4 @@
-//! `drape render --bench`: how long drawing takes.
+//! `drape render --bench`: the time to draw a picture.
 
 use std::time::{Duration, Instant};
 
@@ -19,7 +19,7 @@ struct Bench {
     threads: usize,
     triangles: u64,
     fragments: u64,
-    /// The median of each stage by itself.
+    /// The median of each stage.
     stages: StageTimes,
 }
 
@@ -31,7 +31,7 @@ struct StageTimes {
     shading: f64,
 }
 
-/// Draws once to warm up, then `runs` (at least one) times, and prints the times.
+/// Draws once to warm up, then `runs` (at least 1) times, and prints the times.
 pub(crate) fn run(
     renderer: &Renderer,
     points: &Points,
@@ -72,7 +72,7 @@ impl StageTimes {
     }
 }
 
-/// The median, in milliseconds; of two in the middle their mean; 0 for none.
+/// The median in milliseconds: the middle, or the mean of the middle two; 0 for none.
 fn median(mut times: Vec<Duration>) -> f64 {
     times.sort_unstable();
     let half = times.len() / 2;

@@ -1,9 +1,10 @@
-//! What is said of a step against the stability bound of an explicit integrator.
+//! The messages about a step that exceeds the stability bound of an explicit integrator.
 
+use crate::session::ui::Ui;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind};
 
-/// The error of a cloth that vibrates too fast even at rest.
+/// The error of a step that is too long for the springs even at rest.
 pub(crate) fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Error {
     let Stability { mass, dt, limit, omega_rest, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
@@ -13,39 +14,39 @@ pub(crate) fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Er
     let [fewest, fewest_worst] = [stability.fewest_steps_rest(), stability.fewest_steps_worst()];
     let [softer, softer_worst] = largest_ks(stability, ks);
     let help = format!(
-        "raise steps_per_frame from {steps} to at least {fewest} at rest, {fewest_worst} at worst: --set \
-         sim.steps_per_frame={fewest_worst} (damping per step acts that much more often); or lower ks to at most \
-         {softer} at rest, {softer_worst} at worst; --allow-unstable runs on"
+        "raise steps_per_frame from {steps} to at least {fewest} at rest, {fewest_worst} at worst (any deformation): \
+         --set sim.steps_per_frame={fewest_worst}\n(with more steps, damping per step acts more often)\nor lower ks \
+         to at most {softer} at rest, {softer_worst} at worst: --set cloth.ks={softer_worst}\nor simulate all the \
+         same with --allow-unstable"
     );
     Error::new(Kind::Unstable, message).with_help(help)
 }
 
-/// The warning for a cloth that is stable at rest but perhaps not when it is deformed.
-pub(crate) fn may_become_unstable(stability: &Stability, steps: u32) -> String {
+/// Warns of a step that is stable at rest, but not in every deformation.
+pub(crate) fn warn_of_deformation(stability: &Stability, steps: u32, ui: &Ui) {
     let Stability { dt, limit_worst, omega_rest, omega_safe, .. } = *stability;
     let undamped = if limit_worst < stability.limit { " without damping" } else { "" };
-    format!(
-        "the cloth may become unstable in motion: dt·ω is {:.3} at rest but {:.3} at worst, and only below \
-         {limit_worst:.3} is it stable{undamped}; steps_per_frame {} instead of {steps} is stable at worst",
-        dt * omega_rest,
-        dt * omega_safe,
-        stability.fewest_steps_worst(),
-    )
+    let [rest, worst] = [dt * omega_rest, dt * omega_safe];
+    let message = format!(
+        "the cloth may become unstable in motion: dt·ω is {rest:.3} at rest and {worst:.3} at worst (any \
+         deformation), and must be below {limit_worst:.3}{undamped}"
+    );
+    let steps_worst = stability.fewest_steps_worst();
+    ui.caution(&message, &format!("raise steps_per_frame from {steps} to at least {steps_worst}"));
 }
 
-/// Two numbers, the first not below the second, with two decimals or as many more as tell them
-/// apart.
+/// Two numbers with two decimals, or with as many as it takes for them to differ.
 fn apart(a: f64, b: f64) -> (String, String) {
     let text = |decimals: usize| (format!("{a:.decimals$}"), format!("{b:.decimals$}"));
     (2..16).map(text).find(|(a, b)| a != b).unwrap_or_else(|| text(16))
 }
 
-/// The largest ks of four digits, in N/m, at which a cloth of `ks` would be stable at rest and at worst;
-/// not finite if the springs have no stiffness.
+/// The largest ks of four digits, in N/m, for which the step is stable at rest and at worst; not finite if the
+/// springs have no stiffness.
 pub(crate) fn largest_ks(stability: &Stability, ks: f64) -> [f64; 2] {
     let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
     [limit / (dt * omega_rest), limit_worst / (dt * omega_safe)].map(|part| {
-        // At the bound itself the cloth is not stable; of another ks ω is rounded otherwise.
+        // The bound itself is not stable, and ω of another ks is rounded differently.
         rounded_down(ks * part * part * (1.0 - 1e-9))
     })
 }

@@ -1,6 +1,6 @@
-//! The start of a simulation: a step that is certain to fail is refused before it is taken.
+//! The start of a simulation. A step that is certain to fail is an error before the first step.
 
-use super::stability::{may_become_unstable, unstable_at_rest};
+use super::stability::{unstable_at_rest, warn_of_deformation};
 use crate::session::Session;
 use drape::cloth::Points;
 use drape::diagnostics::stability::Stability;
@@ -8,12 +8,13 @@ use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Unresolved};
 
-/// The simulation of `scene` at its start. Where steps will follow, a cloth that is certain to
-/// blow up is refused, unless that is allowed, and one that may blow up behind the stretch limit is
-/// watched by a ledger.
+/// The simulation of `scene` at its start, which will be advanced by `frames` frames.
+///
+/// A cloth that may blow up while the stretch limit hides it gets a ledger, which detects that.
 ///
 /// # Errors
-/// [`Kind::Unstable`] for such a cloth; otherwise as [`Simulation::new`].
+/// [`Kind::Unstable`] when the cloth is certain to blow up or not to move at all, unless `allow_unstable`;
+/// otherwise as [`Simulation::new`].
 pub(crate) fn start(
     scene: &Scene,
     frames: u64,
@@ -23,7 +24,7 @@ pub(crate) fn start(
     start_from(scene, frames, None, allow_unstable, session)
 }
 
-/// As [`start`], with the points at `x` if that is given.
+/// As [`start`], with the points at `x` if it is given.
 ///
 /// # Errors
 /// As [`start`] and [`Simulation::starting_at`].
@@ -48,11 +49,9 @@ pub(crate) fn start_from(
             if !allow_unstable {
                 return Err(error);
             }
-            session.ui.note(&format!("warning: {error}"));
+            session.ui.caution(&error.message, &error.help);
         } else if !stability.is_always_stable() {
-            session
-                .ui
-                .note(&format!("warning: {}", may_become_unstable(&stability, scene.sim.steps_per_frame)));
+            warn_of_deformation(&stability, scene.sim.steps_per_frame, &session.ui);
             if !allow_unstable && scene.sim.stretch_limit.is_some() {
                 simulation.record_ledger()?;
             }
@@ -61,7 +60,7 @@ pub(crate) fn start_from(
     Ok(simulation)
 }
 
-/// The error of a step that is too short for numbers to tell its two ends apart.
+/// The error of a step so short that it is lost in the rounding of the positions.
 fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
     let Unresolved { point: (i, j), axis, fall, rounding } = simulation.unresolved(time)?;
     let axis = ["x", "y", "z"][axis];
@@ -69,7 +68,6 @@ fn stuck(simulation: &Simulation, time: f64) -> Option<Error> {
         "stuck before the first step: gravity moves point ({i}, {j}) by {fall:.3e} m along {axis} in a step, \
          and its position is rounded to {rounding:.3e} m"
     );
-    let help =
-        "lower steps_per_frame or fps, or bring the cloth nearer to the origin; --allow-unstable runs on";
+    let help = "lower steps_per_frame or fps, or move the cloth nearer to the origin\nor simulate all the same with --allow-unstable";
     Some(Error::new(Kind::Unstable, message).with_help(help))
 }

@@ -1,4 +1,4 @@
-//! The table of `simulate --csv`: a row a frame.
+//! The table of `simulate --csv`: a row for each frame.
 
 use drape::diagnostics::energy::Energy;
 use drape::diagnostics::extremes::Extremes;
@@ -6,12 +6,13 @@ use drape::diagnostics::ledger::Ledger;
 use drape::simulation::Simulation;
 use drape_lab::csv::Csv;
 
-/// The columns: seconds, J, J put in since the frame before, then the extremes (m, m/s).
+/// The columns: the time (s), energies (J), the energy that each phase added since the last row (J), and
+/// extremes (m, m/s).
 fn columns() -> Vec<String> {
     let energies = ["time", "kinetic", "spring", "gravitational", "total"].map(str::to_owned);
-    let put_in = Ledger::default().entries().map(|(name, _)| format!("by_{name}"));
+    let added = Ledger::default().entries().map(|(name, _)| format!("by_{name}"));
     let extremes = ["largest_stretch", "smallest_distance", "largest_speed"].map(str::to_owned);
-    energies.into_iter().chain(put_in).chain(extremes).collect()
+    energies.into_iter().chain(added).chain(extremes).collect()
 }
 
 /// The rows so far.
@@ -29,16 +30,16 @@ impl Table {
         Self { csv: Csv::new(&names), before: Ledger::default() }
     }
 
-    /// Adds the state of `simulation`, whose ledger is kept.
+    /// Adds the state of `simulation`, which records its ledger.
     pub(crate) fn row(&mut self, simulation: &Simulation) {
         let energy = simulation.energy();
         let Energy { kinetic, spring, gravitational } = energy;
         let ledger = simulation.ledger().unwrap_or_default();
         let pairs = ledger.entries().zip(self.before.entries());
-        let put_in = pairs.map(|((_, now), (_, before))| now - before);
+        let added = pairs.map(|((_, now), (_, before))| now - before);
         let Extremes { stretch, distance, speed } = simulation.extremes();
         let energies = [simulation.time(), kinetic, spring, gravitational, energy.total()];
-        self.csv.row(energies.into_iter().chain(put_in).chain([stretch, distance, speed]));
+        self.csv.row(energies.into_iter().chain(added).chain([stretch, distance, speed]));
         self.before = ledger;
     }
 

@@ -1,4 +1,4 @@
-//! How far long work is: a bar on a terminal, else at most a line every five seconds.
+//! The progress of long work: a bar on a terminal, otherwise at most a line every five seconds.
 
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -7,10 +7,10 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::session::ui::{self, Ui};
 
-/// Time between two lines where there is no terminal.
+/// Shortest time between two lines where there is no terminal.
 const PAUSE: Duration = Duration::from_secs(5);
 
-/// The progress of work that is done in equal pieces.
+/// The progress of work on one thread.
 pub(crate) struct Progress<'a> {
     ui: &'a Ui,
     what: &'static str,
@@ -21,14 +21,14 @@ pub(crate) struct Progress<'a> {
 }
 
 impl<'a> Progress<'a> {
-    /// Begins to show work called `what`, such as `simulating`, in `total` pieces.
+    /// Starts to show work named `what`, such as `simulating`, of `total` equal pieces.
     pub(crate) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
         let now = Instant::now();
         let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what, total));
         Self { ui, what, total, bar, started: now, told: now }
     }
 
-    /// Says that `done` pieces are done.
+    /// Shows that `done` pieces are done.
     pub(crate) fn set(&mut self, done: u64) {
         if let Some(bar) = &self.bar {
             bar.set_position(done);
@@ -47,7 +47,7 @@ impl Drop for Progress<'_> {
     }
 }
 
-/// The progress of work whose pieces end on any thread.
+/// The progress of work on several threads.
 pub(crate) struct Tally<'a>(Mutex<(Progress<'a>, u64)>);
 
 impl<'a> Tally<'a> {
@@ -56,9 +56,9 @@ impl<'a> Tally<'a> {
         Self(Mutex::new((Progress::new(ui, what, total), 0)))
     }
 
-    /// Says that `pieces` more are done; never more than all are shown.
+    /// Shows that `pieces` more are done, at most `total` in all.
     pub(crate) fn add(&self, pieces: u64) {
-        // A thread that panicked took the whole program with it.
+        // The lock is poisoned only when a panic is about to end the program.
         if let Ok(mut guard) = self.0.lock() {
             let (progress, done) = &mut *guard;
             *done = (*done + pieces).min(progress.total);
@@ -69,17 +69,17 @@ impl<'a> Tally<'a> {
 
 fn bar(what: &'static str, total: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-    // The template is a constant; should it not parse, the default style does as well.
+    // The template is constant; if it did not parse, the default style would do.
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
         bar.set_style(style);
     }
     bar.with_message(what)
 }
 
-/// Part of the work before which its speed says nothing.
+/// The remaining time is estimated after this fraction of the work, one in `EARLY`.
 const EARLY: u64 = 20;
 
-/// `done` of `total` and, after the first twentieth, the seconds left if the rest goes as fast.
+/// `done` of `total` and, after the first twentieth, the seconds left at the same speed.
 fn line(what: &str, done: u64, total: u64, elapsed: Duration) -> String {
     let left = total.saturating_sub(done);
     if left == 0 || done < total / EARLY {

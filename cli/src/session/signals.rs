@@ -1,4 +1,4 @@
-//! Ctrl-C and SIGTERM: the first asks for a stop at the next frame, the second ends at once.
+//! Ctrl-C and SIGTERM: the first stops the program at the next frame, the second at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -8,20 +8,20 @@ use signal_hook::flag;
 
 use drape::error::{Error, Kind, Result};
 
-/// The last signal that arrived.
+/// The signal that arrived last.
 pub(crate) struct Signals {
     number: Arc<AtomicUsize>,
 }
 
 impl Signals {
-    /// Starts to catch the signals.
+    /// Starts to catch both signals.
     ///
     /// # Errors
     /// [`Kind::Io`] when the system refuses.
     pub(crate) fn install() -> Result<Self> {
         let (number, again) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
         for (signal, value) in [(SIGINT, 2), (SIGTERM, 15)] {
-            // The order counts: the shutdown sees the flag as the signals before have left it.
+            // The order matters: the shutdown acts on the flag as earlier signals have set it.
             flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&again))
                 .and_then(|_| flag::register(signal, Arc::clone(&again)))
                 .and_then(|_| flag::register_usize(signal, Arc::clone(&number), value))
@@ -30,8 +30,10 @@ impl Signals {
         Ok(Self { number })
     }
 
+    /// Fails once a signal has arrived.
+    ///
     /// # Errors
-    /// [`Kind::Signal`] once a signal has arrived.
+    /// [`Kind::Signal`] with the number of the signal.
     pub(crate) fn check(&self) -> Result<()> {
         match self.number.load(Ordering::Relaxed) {
             0 => Ok(()),

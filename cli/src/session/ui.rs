@@ -1,22 +1,22 @@
-//! What people and programs see on standard error: notes, warnings, errors.
+//! Messages on standard error: notes, warnings, errors.
 
 use std::io::{self, IsTerminal, Write};
 
 use drape::error::{Diagnostic, Error, Kind};
 
-/// When to colour (`--color`).
+/// When to use colours (`--color`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Color {
-    /// On a terminal, unless the variable `NO_COLOR` is set.
+    /// On a terminal, if the variable `NO_COLOR` is not set.
     Auto,
-    /// Always.
+    /// On everything.
     Always,
-    /// Never.
+    /// On nothing.
     Never,
 }
 
 impl Color {
-    /// Whether a stream gets colour.
+    /// Whether a stream gets colours.
     pub(crate) fn applies(self, is_terminal: bool) -> bool {
         match self {
             Self::Always => true,
@@ -26,40 +26,40 @@ impl Color {
     }
 }
 
-/// How to speak on standard error.
+/// What is printed on standard error, and how.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ui {
     /// Errors and warnings as one JSON object a line.
     pub(crate) json: bool,
     /// Errors only.
     pub(crate) quiet: bool,
-    /// Remarks on what is done.
+    /// Remarks too.
     pub(crate) verbose: bool,
-    /// When to colour.
+    /// When to use colours.
     pub(crate) color: Color,
 }
 
 impl Ui {
-    /// What is known before the arguments are read: whether `--json` is among them.
+    /// The settings before the arguments are parsed: only whether `--json` is among them is known.
     pub(crate) fn before_parsing(json: bool) -> Self {
         Self { json, quiet: false, verbose: false, color: Color::Auto }
     }
 
-    /// A remark for those who asked (`-v`).
+    /// Prints a line only with `-v`.
     pub(crate) fn remark(&self, text: &str) {
         if self.verbose && !self.json {
             line(text);
         }
     }
 
-    /// A line that `-q` leaves out.
+    /// Prints a line, unless with `-q`.
     pub(crate) fn note(&self, text: &str) {
         if !self.quiet && !self.json {
             line(text);
         }
     }
 
-    /// Something doubtful in a scene.
+    /// Prints a warning about a scene, unless with `-q`.
     pub(crate) fn warn(&self, warning: &Diagnostic) {
         if self.quiet {
         } else if self.json {
@@ -69,27 +69,28 @@ impl Ui {
         }
     }
 
-    /// A failure.
+    /// Prints a warning that belongs to no place in a file, unless with `-q` or `--json`.
+    pub(crate) fn caution(&self, message: &str, help: &str) {
+        self.note(&self.paint(&format!("warning: {message}{}", help_lines(help))));
+    }
+
+    /// Prints an error.
     pub(crate) fn error(&self, error: &Error) {
         line(&if self.json { json(error) } else { self.pretty(error) });
     }
 
-    /// Whether a progress display would be read.
+    /// Whether progress is shown.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && !self.json
     }
 
     fn pretty(&self, error: &Error) -> String {
         let mut blocks: Vec<_> = error.diagnostics.iter().map(|d| self.paint(&d.rendered)).collect();
-        // One diagnostic says it all; several are counted.
+        // The number of errors is added only where there are several.
         if blocks.len() != 1 {
             blocks.push(self.paint(&format!("error: {}", error.message)));
         }
-        let mut text = blocks.join("\n\n");
-        if !error.help.is_empty() {
-            text += &format!("\n  = help: {}", error.help.replace('\n', "\n          "));
-        }
-        text
+        blocks.join("\n\n") + &help_lines(&error.help)
     }
 
     fn paint(&self, text: &str) -> String {
@@ -97,7 +98,16 @@ impl Ui {
     }
 }
 
-/// Colours, if asked to, the word before the first colon of a message.
+/// The lines that follow a message and say what to do; nothing for an empty `help`.
+pub(crate) fn help_lines(help: &str) -> String {
+    if help.is_empty() {
+        String::new()
+    } else {
+        format!("\n  = help: {}", help.replace('\n', "\n          "))
+    }
+}
+
+/// Colours the word before the first colon of a message, if `colored`.
 pub(crate) fn paint(text: &str, colored: bool) -> String {
     match text.split_once(':') {
         Some((word, rest)) if colored => {
@@ -108,7 +118,7 @@ pub(crate) fn paint(text: &str, colored: bool) -> String {
     }
 }
 
-/// Writes a line to standard error. If nobody can read it, nobody can be told.
+/// Writes a line to standard error. A failure to do so cannot be reported anywhere.
 fn line(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

@@ -1,10 +1,10 @@
-//! What stands under a picture: its parameters, how stable its step is, where its energy went.
+//! The text under a picture: its parameters, the stability of its step, its energy.
 
 use super::shot::{Shot, State};
 use drape::diagnostics::stability::Stability;
 use drape::scene::{Cloth, Material, Scene, Shader};
 
-/// The parameters that a picture was made with.
+/// The parameters of a picture.
 pub(super) fn parameters(shot: &Shot, state: &State) -> String {
     let scene = &shot.scene;
     let mut parts = Vec::new();
@@ -15,7 +15,7 @@ pub(super) fn parameters(shot: &Shot, state: &State) -> String {
     } else {
         parts.push("no cloth".to_owned());
     }
-    parts.extend(looks(scene));
+    parts.extend(drawing(scene));
     parts.push(format!("camera at polar {}°, azimuth {}°", scene.camera.polar, scene.camera.azimuth));
     parts.join(" · ")
 }
@@ -38,8 +38,8 @@ fn cloth_parameters(cloth: &Cloth) -> String {
     )
 }
 
-/// How the objects are drawn.
-fn looks(scene: &Scene) -> Vec<String> {
+/// The parameters of how the objects are drawn.
+fn drawing(scene: &Scene) -> Vec<String> {
     let Some(material) = scene.materials().next() else { return Vec::new() };
     let Material { shader, ka, kd, ks, normal_scaling, height_scaling, .. } = material;
     let mut parts = vec![format!("shader {}", shader.name())];
@@ -58,7 +58,7 @@ fn looks(scene: &Scene) -> Vec<String> {
     parts
 }
 
-/// How far the step is from what the springs stand.
+/// The step compared with the bounds of stability.
 pub(super) fn margin(state: &State) -> String {
     let Some(stability) = state.stability else {
         return "Nothing moves, so there is no step.".to_owned();
@@ -77,7 +77,7 @@ pub(super) fn margin(state: &State) -> String {
     format!("dt·ω = {rest:.3} at rest, {worst:.3} at worst; the limit is {limit:.3}{undamped}: {verdict}.")
 }
 
-/// What each phase put in or took out until the moment, and what is left of it as motion.
+/// The energy that each phase put in or took out so far, and the kinetic energy now.
 pub(super) fn ledger(state: &State) -> String {
     let Some(ledger) = state.ledger.filter(|_| state.frame > 0) else {
         return "Nothing has moved yet.".to_owned();

@@ -1,7 +1,7 @@
 //! The figures of the report: a table of pictures, the simulations that they share, and the page
 //! that shows them.
 
+pub mod table;
+pub mod shot;
 mod facts;
 pub mod page;
-pub mod shot;
-pub mod table;

@@ -5,25 +5,8 @@ use super::shot::{Shot, Shown};
 use super::table::{Figure, Part, Picture};
 use crate::page;
 
-/// A figure with its pictures, in the order of its table entry.
-pub struct Entry<'a> {
-    /// The entry of the table.
-    pub figure: &'a Figure,
-    /// One for each that the entry names.
-    pub pictures: Vec<Made<'a>>,
-}
-
-/// A picture of the table, what was asked for, and what was made of it.
-pub type Made<'a> = (&'a Picture, &'a Shot, &'a Shown);
-
-impl<'a> Entry<'a> {
-    /// `figure` with the next of the pictures that were `made`, one for each that it names.
-    pub fn new(figure: &'a Figure, made: &mut impl Iterator<Item = (&'a Shot, &'a Shown)>) -> Self {
-        let pictures =
-            figure.pictures.iter().zip(made).map(|(picture, (shot, shown))| (picture, shot, shown));
-        Self { figure, pictures: pictures.collect() }
-    }
-}
+/// A picture of the table, what was asked for, and how it came out.
+type Made<'a> = (&'a Picture, &'a Shot, &'a Shown);
 
 /// What this page adds to the style of all pages.
 const STYLE: &str = "<style>section{border-top:1px solid var(--line);padding:.6rem 0 1rem}h3{margin:.2rem 0 .6rem}\
@@ -31,25 +14,30 @@ figure{margin:0}.row>figure{max-width:32.2rem}.row>div{flex:1 1 19rem;min-width:
 .note{border-left:4px solid var(--b);padding-left:.7rem}dl{margin:.5rem 0}dt{font-weight:600}dd{margin:0 0 .5rem}\
 nav a{margin-right:.6rem;display:inline-block}pre{white-space:pre-wrap}</style>\n";
 
-const TEXT: &str = "<p>Every figure of the report (a write-up of the course project ClothSim), made by one program from the scenes that are built into it. \
-The command under a picture makes that picture alone, in the program's source folder, with the same bytes. \
-Pictures are shown at half their size; a click opens the whole one. Where a figure came from a fault, \
-the stable or true picture stands beside it.</p>\n\
-<p><b>Stability</b> is the step times the highest angular frequency of the springs, against the largest value that \
-Verlet's scheme stands. <b>Energy</b> is the ledger: what each phase of the method put into the cloth (+) or \
-took out of it (−) from the start to the picture. The exchange of motion and height by gravity, and of motion \
-and stretch by springs, is even; their entries hold only what the finite step adds.</p>\n";
+const TEXT: &str = "<p>Every figure of the report (a write-up of the course project ClothSim), made by one program from its built-in scenes. \
+The command under a picture, run in the program's source folder, makes that picture with the same bytes. \
+Pictures are shown at half their size; a click opens the full size. Where a figure came from a fault, \
+the stable or correct picture is shown beside it.</p>\n\
+<p><b>Stability</b> is the step times the highest angular frequency of the springs, and the limit below which \
+Verlet's scheme is stable. <b>Energy</b> is the ledger: what each phase of the method put into the cloth (+) or \
+took out of it (−) from the start to the picture. Gravity exchanges motion and height, and springs exchange motion \
+and stretch, without loss; their entries hold only what the finite step adds.</p>\n";
 
-/// The page of `parts`, each with those of its figures that were made.
-pub fn page(parts: &[(&Part, Vec<Entry<'_>>)]) -> String {
+/// The page of `parts`, whose pictures were asked for as `shots` and came out as `shown`, in the same order.
+pub fn page(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
+    let mut made = shots.iter().zip(shown);
     let (mut contents, mut sections) = (String::new(), String::new());
-    for (part, entries) in parts.iter().filter(|(_, entries)| !entries.is_empty()) {
+    for part in parts.iter().filter(|part| !part.figures.is_empty()) {
         let title = page::escape(&part.title);
         contents += &format!("<p><b>{title}</b><br>\n");
-        contents.extend(entries.iter().map(|entry| link(entry.figure.name())));
+        contents.extend(part.figures.iter().map(|figure| link(figure.name())));
         contents += "</p>\n";
         sections += &format!("<h2>{title}</h2>\n");
-        sections.extend(entries.iter().map(section));
+        for figure in &part.figures {
+            let pictures = figure.pictures.iter().zip(&mut made);
+            let pictures: Vec<_> = pictures.map(|(picture, (shot, shown))| (picture, shot, shown)).collect();
+            sections += &section(figure, &pictures);
+        }
     }
     page::head("The figures of the report")
         + STYLE
@@ -66,13 +54,13 @@ fn link(name: &str) -> String {
     format!("<a href=\"#{name}\">{name}</a>\n")
 }
 
-fn section(entry: &Entry<'_>) -> String {
-    let name = page::escape(entry.figure.name());
-    let note = match entry.figure.note.as_str() {
+fn section(figure: &Figure, pictures: &[Made<'_>]) -> String {
+    let name = page::escape(figure.name());
+    let note = match figure.note.as_str() {
         "" => String::new(),
         note => format!("<p class=\"note\">{}</p>\n", page::escape(note)),
     };
-    let cells: String = match entry.pictures.as_slice() {
+    let cells: String = match pictures {
         [one] => format!("{}<div>\n{}</div>\n", shown(one), details(one)),
         several => several
             .iter()
@@ -120,10 +108,9 @@ mod tests {
         let shot = Shot { scene, options: Options::default(), frame: 0, allow_unstable: false };
         let shown = shot::take(std::slice::from_ref(&shot), true, &|| Ok(())).unwrap();
         let parts = parts().unwrap();
-        let entry = |figure| Entry::new(figure, &mut std::iter::repeat((&shot, &shown[0])));
-        let entries: Vec<_> =
-            parts.iter().map(|part| (part, part.figures.iter().map(entry).collect())).collect();
-        let page = page(&entries);
+        let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);
+        let count = pictures.count();
+        let page = page(&parts, &vec![shot; count], &vec![shown[0].clone(); count]);
 
         assert_eq!(page.matches("<section id=").count(), 51);
         assert_eq!(page.matches("<h2>").count(), parts.len());

@@ -1,4 +1,4 @@
-//! Pictures of many moments: those of one simulation share it, the simulations run side by side.
+//! Pictures of many moments: pictures that can share a simulation do, and simulations run side by side.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -16,13 +16,13 @@ use drape::texture_source::TextureSource;
 /// A picture to take.
 #[derive(Clone, Debug)]
 pub struct Shot {
-    /// The scene as it is drawn.
+    /// The scene.
     pub scene: Scene,
-    /// What is asked of the picture besides.
+    /// The options of the renderer.
     pub options: Options,
-    /// The frame that it shows.
+    /// The frame of the picture.
     pub frame: u64,
-    /// Whether the energy of the cloth may grow without end.
+    /// Whether the cloth may become unstable.
     pub allow_unstable: bool,
 }
 
@@ -33,11 +33,11 @@ pub struct Shown {
     pub png: Vec<u8>,
     /// The picture at half its width and height, as PNG; each pixel is the mean of four.
     pub half: Vec<u8>,
-    /// What is known of the cloth at its moment.
+    /// The cloth at this moment.
     pub state: State,
 }
 
-/// What is known of a cloth at the moment of a picture.
+/// A cloth at the moment of a picture, in numbers.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct State {
     /// The frame.
@@ -49,10 +49,10 @@ pub struct State {
     pub state_hash: u64,
     /// The energies, in J.
     pub energy: Energy,
-    /// What each phase put in until the moment, in J, if it was recorded and there is a cloth.
+    /// The energy that each phase put in so far, in J, if it was recorded and there is a cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ledger: Option<Ledger>,
-    /// How the springs stand the step, if there is a cloth.
+    /// The bounds of the step, if there is a cloth.
     pub stability: Option<Stability>,
 }
 
@@ -61,7 +61,7 @@ fn hexadecimal<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok,
 }
 
 impl Shot {
-    /// Whether two pictures are moments of one simulation: all but the looks is the same.
+    /// Whether two pictures are moments of one simulation: their scenes differ at most in how they are drawn.
     fn shares_simulation(&self, other: &Self) -> bool {
         let (a, b) = (&self.scene, &other.scene);
         let cloth = match (&a.cloth, &b.cloth) {
@@ -74,7 +74,8 @@ impl Shot {
     }
 }
 
-/// The places of `shots` by simulation, each in the order of the frames; longest simulation first.
+/// The indices of `shots` grouped by simulation, each group in the order of the frames, the longest simulation
+/// first.
 fn simulations(shots: &[Shot]) -> Vec<Vec<usize>> {
     let mut simulations: Vec<Vec<usize>> = Vec::new();
     for (place, shot) in shots.iter().enumerate() {
@@ -98,8 +99,8 @@ pub fn frames(shots: &[Shot]) -> u64 {
     simulations(shots).iter().filter_map(last).sum()
 }
 
-/// Takes the pictures `shots`, in their order, with an energy ledger if `ledger`. `each_frame` is
-/// called after every frame, by many threads.
+/// Takes the pictures `shots` and returns them in this order; records an energy ledger if `ledger` is true.
+/// `each_frame` is called after every frame, from many threads.
 ///
 /// # Errors
 /// Those of the simulations, of the pictures and of `each_frame`.
@@ -118,7 +119,7 @@ pub fn take(
     Ok(taken.into_iter().map(|(_, shown)| shown).collect())
 }
 
-/// The pictures at `places`, which share a simulation.
+/// The pictures at the indices `places`, which share a simulation.
 fn film(
     shots: &[Shot],
     places: &[usize],
@@ -147,7 +148,7 @@ fn film(
         .collect()
 }
 
-/// The picture of `shot`, whose moment it is.
+/// The picture of `shot` at the moment of `simulation`.
 fn show(shot: &Shot, simulation: &Simulation, stability: Option<Stability>) -> Result<Shown> {
     let renderer = Renderer::new(&shot.scene, &TextureSource::BuiltIn)?;
     let picture = renderer.draw(simulation.positions(), &shot.options);

@@ -18,9 +18,9 @@ pub struct Part {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
-    /// The figure, then the pictures to be seen beside it.
+    /// The figure itself, then the pictures shown beside it.
     pub pictures: Vec<Picture>,
-    /// What is to be known about it where it came from a fault; empty otherwise.
+    /// An explanation if the figure came from a fault; empty otherwise.
     #[serde(default)]
     pub note: String,
 }
@@ -47,7 +47,7 @@ impl Figure {
 }
 
 impl Picture {
-    /// The words of the command that makes this picture alone, in the repository's folder.
+    /// The words of the command that makes this picture, in the repository's folder.
     pub fn words(&self) -> Vec<String> {
         let Self { name, scene, arguments, .. } = self;
         let command = format!("drape render scenes/{scene}.json {name}.png {arguments}");
@@ -64,10 +64,34 @@ impl Picture {
 /// Every part of the report.
 ///
 /// # Errors
-/// [`Kind::Internal`] when the table that is built in cannot be read.
+/// [`Kind::Internal`] when the built-in table cannot be read.
 pub fn parts() -> Result<Vec<Part>> {
     serde_json::from_str(include_str!("figures.json"))
         .map_err(|e| Error::new(Kind::Internal, format!("the table of figures: {e}")))
+}
+
+/// The parts of the report with the figures that `only` asks for, or all if it is empty: by the name of a
+/// figure, or if no figure has this name by the beginning of names, such as `part5`.
+///
+/// # Errors
+/// [`Kind::Usage`] when one of `only` is the beginning of no name; otherwise as [`parts`].
+pub fn parts_called(only: &[String]) -> Result<Vec<Part>> {
+    let mut parts = parts()?;
+    let names: Vec<String> =
+        parts.iter().flat_map(|part| &part.figures).map(|figure| figure.name().to_owned()).collect();
+    let is_asked = |figure: &str, text: &String| {
+        figure == text || (figure.starts_with(text.as_str()) && !names.contains(text))
+    };
+    if let Some(text) = only.iter().find(|text| !names.iter().any(|name| is_asked(name, text))) {
+        let error = Error::new(Kind::Usage, format!("there is no figure `{text}`"));
+        return Err(error.with_help(format!("the figures are {}", names.join(", "))));
+    }
+    if !only.is_empty() {
+        for part in &mut parts {
+            part.figures.retain(|figure| only.iter().any(|text| is_asked(figure.name(), text)));
+        }
+    }
+    Ok(parts)
 }
 
 #[cfg(test)]
@@ -85,6 +109,23 @@ mod tests {
         assert_eq!(names.len(), pictures.len());
         assert!(pictures.iter().all(|picture| !picture.caption.is_empty()));
         assert!(figures.iter().all(|figure| figure.name().starts_with("part")));
+    }
+
+    #[test]
+    fn figures_are_picked_by_their_name_or_its_beginning() {
+        let picked = |only: &[&str]| {
+            let only: Vec<String> = only.iter().map(|&name| name.to_owned()).collect();
+            let parts = parts_called(&only).map_err(|e| e.kind)?;
+            Ok(parts.iter().flat_map(|p| &p.figures).map(|f| f.name().to_owned()).collect::<Vec<_>>())
+        };
+        let part5 = picked(&["part5"]).unwrap();
+        assert!(part5.len() == 21 && part5.iter().all(|name| name.starts_with("part5-")), "{part5:?}");
+        assert_eq!(picked(&["part5-phong-full"]).unwrap(), ["part5-phong-full"]);
+        assert_eq!(picked(&["part3-sphere-500"]).unwrap(), ["part3-sphere-500"], "not those with more zeros");
+        assert_eq!(picked(&["part3-sphere-50"]).unwrap().len(), 3);
+        assert_eq!(picked(&["part1", "part5-mball"]).unwrap().len(), 4);
+        assert_eq!(picked(&[]).unwrap().len(), 51);
+        assert_eq!(picked(&["part1", "part6"]), Err(Kind::Usage));
     }
 
     /// A picture that stands beside a figure is there for a reason.

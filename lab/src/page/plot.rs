@@ -8,7 +8,7 @@
 use std::fmt::Write;
 
 use super::axis::Axis;
-use super::escape;
+use super::html::escape;
 
 /// Width of the view box and of its text, in units.
 const WIDTH: f64 = 420.0;

@@ -1,4 +1,4 @@
-//! Scenes at the ends of every range: what is promised, and what happened.
+//! Scenes with one value at the end of its range, or beyond: what is promised, and what happened.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ pub(super) const FRAMES: u64 = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Promise {
-    /// It runs, and no energy comes from nowhere.
+    /// It runs, and no energy comes from nothing.
     Runs,
     /// It is refused before the first step.
     Refused,
@@ -64,12 +64,12 @@ pub fn table(
     rows.collect()
 }
 
-/// What `rows` come to, in a sentence.
+/// A summary of `rows`, in a sentence.
 pub fn headline(rows: &[Row]) -> String {
     let kept = rows.iter().filter(|row| row.kept).count();
     format!(
-        "{kept} of {} scenes with a value at the end of its range did as promised: they ran, or were refused before \
-         the first step",
+        "{kept} of {} scenes with a value at the end of its range did what is promised: they ran, or were refused \
+         before the first step",
         rows.len()
     )
 }
@@ -79,7 +79,7 @@ pub fn len() -> usize {
     EXTREMES.len()
 }
 
-/// What became of `scene`, and in words; nothing that can be promised when it broke in motion.
+/// The promise that `scene` keeps, `None` if it became unstable in motion, and what happened in words.
 fn try_out(scene: &Scene) -> Result<(Option<Promise>, String)> {
     let Some(cloth) = &scene.cloth else { return Ok((Some(Promise::Runs), "nothing moves".into())) };
     let Stability { dt, omega_rest, limit, .. } = Stability::new(cloth, &scene.sim)?;
@@ -98,7 +98,7 @@ fn try_out(scene: &Scene) -> Result<(Option<Promise>, String)> {
     Ok((Some(Promise::Runs), format!("ran; longest spring {:.4} of its rest length{beyond}", run.stretch)))
 }
 
-/// What a scene error says first.
+/// The first message of a scene error.
 fn first_words(error: &drape::error::Error) -> String {
     error.diagnostics.first().map_or_else(|| error.message.clone(), |diagnostic| diagnostic.message.clone())
 }
@@ -107,7 +107,7 @@ const fn extreme(what: &'static str, sets: &'static [&'static str], promise: Pro
     Extreme { what, sets, promise }
 }
 
-/// The table's rows; the limits are those of a scene's values.
+/// The rows of the table. The limits are those of the scene format.
 const EXTREMES: &[Extreme] = &[
     extreme("no stiffness", &["cloth.ks=0"], Promise::Runs),
     extreme("stiffness 1e12 N/m", &["cloth.ks=1e12"], Promise::Refused),

@@ -1,4 +1,4 @@
-//! What the colours, lines and marks of the maps say, once for all maps of a page.
+//! The meaning of the colours, lines and marks of the maps, once for all maps of a page.
 
 use super::outcome::Outcome;
 use crate::page::escape;
@@ -13,9 +13,9 @@ pub(super) const STYLE: &str = "\
 /// How opaque the rectangles are, here and in the maps.
 pub(super) const OPACITY: f64 = 0.65;
 
-/// A bound that theory gives.
+/// A bound by theory.
 pub(super) struct Line {
-    /// What every page, message and table calls it.
+    /// Its name in every page, message and table.
     pub(super) name: &'static str,
     meaning: &'static str,
     color: &'static str,
@@ -24,29 +24,29 @@ pub(super) struct Line {
     dashed: bool,
 }
 
-/// In the order of [`super::Column::theory`].
+/// In the order of [`super::map::Column::theory`].
 pub(super) const LINES: [Line; 3] = [
     Line {
         name: "at rest",
-        meaning: "theory, in the shape of the start (ω² = 8 ks/m for the stock lattice). With fewer steps per frame \
-                  than this line the cloth is certain to blow up, if it moves for long enough.",
+        meaning: "the bound by theory in the shape of the start (ω² = 8 ks/m for the stock lattice). With fewer steps \
+                  per frame than this line the cloth is certain to blow up, if it moves for long enough.",
         color: "--ink",
         stroke: 2.0,
         dashed: false,
     },
     Line {
         name: "at worst",
-        meaning: "theory, in the shape with the fastest vibration that any cloth can take (12 ks/m). From this line \
-                  on no cloth was found to blow up. It is higher without damping, since there motion feeds resonances. \
-                  Between the two lines it depends on how the cloth is deformed.",
+        meaning: "the bound by theory in the shape whose vibrations are the fastest (12 ks/m). With at least as many \
+                  steps no cloth was found to blow up. The bound is higher without damping, since motion then feeds \
+                  resonances. Between the two lines the outcome depends on how the cloth is deformed.",
         color: "--ink",
         stroke: 2.0,
         dashed: true,
     },
     Line {
         name: "Gershgorin",
-        meaning: "a cruder bound (17.6 ks/m): twice the stiffness of all springs that meet in a point. It shows what \
-                  knowing the lattice saves; no step needs it.",
+        meaning: "a cruder bound (17.6 ks/m): twice the stiffness of all springs that meet in a point. It is shown for \
+                  comparison; no cloth needs so many steps.",
         color: "--soft",
         stroke: 1.0,
         dashed: true,
@@ -60,7 +60,7 @@ impl Line {
     }
 }
 
-/// The thresholds that were found by trying: mark, name, and what the legend draws for the mark.
+/// The thresholds found by bisection: mark, name, and the character for the mark in the legend.
 pub(super) const TRIED: [(Marker, &str, &str); 2] =
     [(Marker::Disc, "tried at rest", "●"), (Marker::Diamond, "tried in motion", "◆")];
 
@@ -74,27 +74,27 @@ pub(super) fn color(outcome: Outcome) -> &'static str {
     }
 }
 
-/// What was seen, whether it is a blow-up, and what to do.
+/// What was observed, whether it is a blow-up, and what to do.
 fn meaning(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ok => {
             "no blow-up in this run, and no spring much longer than the stretch limit allows. These values may be used; \
-             with as many steps as the line at worst asks for, no blow-up was found later either."
+             with at least as many steps as the line at worst no blow-up was found later."
         }
         Outcome::Stretch => {
-            "no blow-up: no energy came from nowhere. But at the end of a frame a spring was over its rest length by \
-             more than twice what the stretch limit allows, since one pass of the limit in each of so few steps is \
-             not enough for a cloth so heavy or soft. It may be used where that does no harm; more steps per frame \
-             cure it, also where all lines are far below."
+            "no blow-up: no energy came from nothing. But at the end of a frame a spring exceeded its rest length by \
+             more than twice what the stretch limit allows: one pass of the limit in each of so few steps is not \
+             enough for a cloth so heavy or soft. These values may be used where that does no harm; more steps per \
+             frame help, even far above all lines."
         }
         Outcome::Energy => {
             "a blow-up: the cloth held more energy than its forces can give, or its springs put in more. Between the \
-             lines they may also only answer the corrections of the stretch limit, step by step, and stay bounded. \
-             Not to be used; more steps per frame, a smaller ks or more density cure it."
+             lines the springs may also only react to the corrections of the stretch limit in every step, and stay \
+             bounded. Do not use these values; more steps per frame, a smaller ks or a higher density help."
         }
         Outcome::Lost => {
-            "a blow-up seen to its end: a position is no number any more, or beyond 1e15 m. Not to be used; the same \
-             cures."
+            "a complete blow-up: a position is not a number, or is beyond 1e15 m. Do not use these values; the same \
+             changes help."
         }
     }
 }
@@ -111,7 +111,11 @@ pub(super) fn legend() -> String {
         entry(&swatch, name, meaning)
     });
     let tried = TRIED.map(|(_, name, mark)| {
-        entry(&format!("<i>{mark}</i>"), name, "the fewest steps found by trying, as in the table below.")
+        entry(
+            &format!("<i>{mark}</i>"),
+            name,
+            "the fewest stable steps found by bisection, as in the table below.",
+        )
     });
     format!("<ul class=\"legend\">\n{}{}{}</ul>\n", outcomes.concat(), lines.concat(), tried.concat())
 }

@@ -1,21 +1,21 @@
-//! One run: how a cloth fared.
+//! One run and its outcome.
 
 use drape::diagnostics::stability::is_always_stable;
 use drape::error::{Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
-/// How a cloth fared, from good to worst.
+/// The outcome of a run, from good to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// Nothing of what follows.
+    /// None of the others.
     Ok,
     /// A spring was stretched by more than twice what the stretch limit allows (the stretch bound).
     Stretch,
     /// The cloth held more energy than its forces can give it (the energy bound, `src/diagnostics/energy_bound.rs`).
     Energy,
-    /// A position was no number, or beyond 1e15 m.
+    /// A position was not a number, or beyond 1e15 m.
     Lost,
 }
 
@@ -23,7 +23,7 @@ impl Outcome {
     /// Every outcome, from good to worst.
     pub const ALL: [Self; 4] = [Self::Ok, Self::Stretch, Self::Energy, Self::Lost];
 
-    /// What tables and legends call it.
+    /// Its name in tables and legends.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ok => "ok",
@@ -33,13 +33,13 @@ impl Outcome {
         }
     }
 
-    /// Whether the cloth gained energy that nothing gave it.
+    /// Whether the cloth gained energy from nothing.
     pub fn is_unstable(self) -> bool {
         self >= Self::Energy
     }
 }
 
-/// What a run showed.
+/// The result of a run.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Run {
     /// The worst that happened.
@@ -78,14 +78,13 @@ pub fn run(scene: &Scene, frames: u64) -> Result<Run> {
     Ok(run)
 }
 
-/// Whether the cloth may blow up behind a stretch limit, where only the ledger shows it
-/// (docs/stability.md).
+/// Whether a stretch limit may hide a blow-up, so that only the ledger shows it (docs/stability.md).
 fn may_hide(scene: &Scene) -> bool {
     let may_blow_up = |cloth| !is_always_stable(cloth, &scene.sim);
     scene.sim.stretch_limit.is_some() && scene.cloth.as_ref().is_some_and(may_blow_up)
 }
 
-/// Whether a position is no number, or beyond what a scene may hold.
+/// Whether a position is not a number, or beyond what a scene may hold.
 fn is_lost(simulation: &Simulation) -> bool {
     let points = simulation.positions();
     let is_there = |value: &f64| value.abs() <= 1e15;

@@ -1,9 +1,9 @@
-//! The map as a web page: a panel a density, the thresholds, the extremes.
+//! The map as a web page: a panel for each density, the thresholds, the extremes.
 
 use super::extremes::{FRAMES, Promise, Row, headline};
 use super::legend::{self, LINES, TRIED, legend};
+use super::map::{Column, Map};
 use super::panel::panel;
-use super::{Column, Map};
 use crate::page::{self, Cells, escape, short};
 
 /// What the page adds to the style of every page: maps two by two, or one by one on a narrow screen.
@@ -17,30 +17,30 @@ pub fn page(title: &str, map: &Map, rows: &[Row]) -> String {
     page::head(title) + &style + &panels(map) + &thresholds(map) + &extremes(rows) + page::END
 }
 
-/// A heat map for each density, with the theory's lines.
+/// A heat map for each density, with the bounds by theory.
 fn panels(map: &Map) -> String {
     let densities = map.axes.density.iter().enumerate();
     let plots: String = densities.map(|(i, &density)| panel(map, density, &format!("panel{i}"))).collect();
     format!(
-        "<p>Each rectangle is a run of {} s with the values in its middle; its colour says how the cloth fared. The \
-         lines are the steps per frame that theory asks for. A good colour below the line <em>at rest</em> only says \
-         that the blow-up has not come yet, as in a cloth that has not done more than fall so far.</p>\n\
+        "<p>Each rectangle is a run of {} s with the values in its middle; its colour is the outcome. The lines are the \
+         fewest stable steps per frame by theory. A good colour below the line <em>at rest</em> only means that the \
+         blow-up has not come yet, as in a cloth that has only fallen so far.</p>\n\
          {}<div class=\"maps\">\n{plots}</div>\n\
-         <p class=\"soft\">The stretch limit takes out in every step what the springs of a cloth that blows up put \
-         in: strains, and often the energy that the cloth holds, stay small. What shows then is the ledger, which \
-         counts what the springs put in; it judges only below the bound at worst, for from there on no blow-up was \
-         found.</p>\n",
+         <p class=\"soft\">In a cloth that blows up, the stretch limit takes out in every step the energy that the \
+         springs put in: the strains, and often the energy that the cloth holds, stay small. Such a blow-up is found \
+         by the energy ledger, which counts what the springs put in. The ledger is judged only below the bound at \
+         worst, because no blow-up was found above it.</p>\n",
         map.axes.time,
         legend(),
     )
 }
 
-/// Steps a second, with the whole steps per frame that they take at `fps` frames a second in brackets.
+/// Steps a second and, in brackets, the fewest whole steps per frame above them at `fps` frames a second.
 pub fn rate(steps: f64, fps: f64) -> String {
     format!("{steps:.1} ({})", (steps / fps).floor() + 1.0)
 }
 
-/// What theory asks for against what was found by trying.
+/// The bounds by theory and the thresholds found by bisection.
 fn thresholds(map: &Map) -> String {
     let found = |steps: Option<f64>| steps.map_or_else(|| "–".to_owned(), |steps| rate(steps, map.fps));
     let row = |column: &Column| {
@@ -62,19 +62,19 @@ fn thresholds(map: &Map) -> String {
     let head = ["density (kg/m²)", "ks (N/m)", rest, tried_rest, "ratio", tried_motion, worst, gershgorin];
     format!(
         "<h2>Thresholds</h2>\n<p>The fewest steps a second at which the cloth is stable, and in brackets the fewest \
-         whole steps per frame, at {} frames a second. Tried: by bisection, at \
-         rest to 0.1 %, in motion over {} s, or 600 steps if those are longer, to 1 %. In motion there is no edge \
-         to be found behind a stretch limit: the fewer the steps, the more the springs put in, and the figure is \
-         where that passes what the cloth is allowed, or the bound at worst where it would pass it only there or \
-         above, since the ledger does not judge from there on. A dash: not found between half the bound at rest and \
-         twice the one at worst.</p>\n{}",
+         whole steps per frame, at {} frames a second. Tried means found by bisection: at \
+         rest to 0.1 %, in motion to 1 % over {} s, or over 600 steps if those take longer. With a stretch limit \
+         there is no sharp edge in motion: the fewer the steps, the more energy the springs put in. The figure is the \
+         number of steps at which that exceeds the allowance of the cloth, or the bound at worst if that is reached \
+         first, since the ledger is not judged above it. A dash means: not found between half the bound at rest and \
+         twice the bound at worst.</p>\n{}",
         map.fps,
         map.axes.time,
         page::table(&head, Cells::Numbers, map.columns.iter().map(row)),
     )
 }
 
-/// What was promised at the extremes, and what happened.
+/// The extremes: what is promised, and what happened.
 fn extremes(rows: &[Row]) -> String {
     let row = |row: &Row| {
         let promise = match row.promise {
@@ -87,11 +87,11 @@ fn extremes(rows: &[Row]) -> String {
     };
     let head = ["extreme", "set", "promise", "what happened", "kept"];
     format!(
-        "<h2>Extremes</h2>\n<p><strong>{}.</strong></p>\n<p>A check of the program, apart from the map: this scene with \
-         one value at the end of its range, or just beyond. What <em>runs</em> has to run for {FRAMES} frames \
-         without a blow-up; what <em>is refused</em> has to be refused before the first step, because it is no scene, \
-         is certain to blow up, or has a step that numbers cannot resolve. <code>docs/extremes.md</code> has the \
-         promises.</p>\n{}",
+        "<h2>Extremes</h2>\n<p><strong>{}.</strong></p>\n<p>A check of the program, separate from the map: this scene with \
+         one value at the end of its range, or just beyond. A row that <em>runs</em> must run for {FRAMES} frames \
+         without a blow-up. A row that <em>is refused</em> must be refused before the first step: it is not a valid \
+         scene, it is certain to blow up, or its steps are too short for floating-point numbers. \
+         <code>docs/extremes.md</code> lists the promises.</p>\n{}",
         escape(&headline(rows)),
         page::table(&head, Cells::Text, rows.iter().map(row))
     )

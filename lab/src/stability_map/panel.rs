@@ -1,7 +1,8 @@
-//! The map of one density as a plot: rectangles for runs, lines for theory, marks for what was tried.
+//! The map of one density as a plot: rectangles for runs, lines for theory, marks for thresholds found by
+//! bisection.
 
 use super::legend::{LINES, OPACITY, TRIED, color};
-use super::{Cell, Column, Map};
+use super::map::{Cell, Column, Map};
 use crate::page::axis::{Axis, Scale};
 use crate::page::plot::{Marker, Plot, Style};
 use crate::page::short;
@@ -36,7 +37,7 @@ fn axis(label: &str, values: &[f64], edges: &[f64]) -> Axis {
     }
 }
 
-/// The borders of cells around `values`, which rise: half way, by ratio, to the next.
+/// The borders of cells around the ascending `values`: at the geometric means of neighbours.
 fn edges(values: &[f64]) -> Vec<f64> {
     let between = |a: f64, b: f64| exp(0.5 * (ln(a) + ln(b)));
     let inner: Vec<f64> = values.windows(2).map(|pair| between(pair[0], pair[1])).collect();
@@ -46,7 +47,7 @@ fn edges(values: &[f64]) -> Vec<f64> {
     std::iter::once(below).chain(inner).chain([above]).collect()
 }
 
-/// The lines of theory from column to column; strokes across the column if there is one alone.
+/// The bounds by theory from column to column; strokes across the column if there is only one.
 fn theory(plot: &mut Plot, columns: &[&Column], fps: f64, edges: &[f64]) {
     for (number, line) in LINES.iter().enumerate() {
         let points: Vec<[f64; 2]> = match columns {
@@ -57,7 +58,7 @@ fn theory(plot: &mut Plot, columns: &[&Column], fps: f64, edges: &[f64]) {
     }
 }
 
-/// Marks where the thresholds of `column` were found, if they are in the `range` that is shown.
+/// Marks the thresholds of `column` that lie in the `range` of the plot.
 fn tried(plot: &mut Plot, column: &Column, fps: f64, [bottom, top]: [f64; 2]) {
     for ((marker, name, _), found) in TRIED.into_iter().zip([column.at_rest, column.in_motion]) {
         let Some(steps) = found.filter(|steps| (bottom..=top).contains(&(steps / fps))) else { continue };

@@ -7,7 +7,7 @@ use drape::math::{exp, ln};
 /// The most values of one axis.
 pub const MAX_VALUES: usize = 200;
 
-/// Positive numbers along an axis, rising, each once.
+/// Positive numbers along an axis, ascending, each once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values(pub Vec<f64>);
 
@@ -25,7 +25,7 @@ impl Values {
         Ok(Self(values).sorted())
     }
 
-    /// The same rounded to whole numbers of at least 1, each once.
+    /// The values rounded to whole numbers of at least 1, each once.
     pub fn whole(&self) -> Vec<u32> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the type")]
         let whole: BTreeSet<u32> = self.0.iter().map(|v| v.round().clamp(1.0, 1e9) as u32).collect();
@@ -39,7 +39,7 @@ impl Values {
     }
 }
 
-/// From `first` to the last and in the manner that `rest` = `LAST:logN` or `LAST:linN` says.
+/// The values from `first` on that `rest` = `LAST:logN` or `LAST:linN` describes.
 fn spread(first: f64, rest: &str) -> Result<Vec<f64>, String> {
     let form = || "write FIRST..LAST:logN or FIRST..LAST:linN for N values, such as 1e2..1e9:log8".to_owned();
     let Some((last, manner)) = rest.split_once(':') else {

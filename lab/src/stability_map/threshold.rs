@@ -1,9 +1,9 @@
-//! The fewest steps a second that a cloth stands, found by trying.
+//! The fewest steps a second at which a cloth is stable, found by bisection.
 //!
-//! Two figures. *At rest*: a cloth without gravity and contact, moved a little out of its rest
-//! shape, either keeps vibrating or grows without end; which it does changes at `dt ω = limit`,
-//! sharply. *In motion*: the scene itself, as long as it is asked to run; it changes between the
-//! bound at rest and the one at worst, as far as the cloth is deformed on the way.
+//! There are two such thresholds. *At rest*: the points of a cloth without gravity and contact are moved a
+//! little out of its rest shape. The vibration either stays bounded or grows without limit, with a sharp
+//! edge at `dt ω = limit`. *In motion*: the scene itself runs for the given time. The edge lies between
+//! the bounds at rest and at worst, depending on how the cloth is deformed.
 
 use super::outcome::run;
 use drape::cloth::Points;
@@ -13,29 +13,28 @@ use drape::math::splitmix64;
 use drape::scene::{Cloth, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
-/// Steps in which a vibration at rest has to show whether it grows. At the least damping a step that
-/// is 0.1 % too long multiplies it by e^50 in so many, at the most damping one that is 1 % too
-/// long by e^40.
+/// Steps after which a vibration at rest that grows has become large. At the least damping a step that is
+/// 0.1 % too long multiplies it by e^50, at the most damping a step that is 1 % too long by e^40.
 const STEPS: u32 = 2000;
 
-/// Steps that a cloth in motion is given at least: a step 1 % too long needs some hundred to show.
+/// The fewest steps of a run in motion: a step that is 1 % too long needs some hundred to show.
 const SHORTEST: f64 = 600.0;
 
-/// How far above the bound at worst rounding cannot hide that a step is stable.
+/// The factor on the bound at worst above which a step is stable despite rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
 
-/// Steps between two looks at the energy, which costs as much as a step.
+/// Steps between two measurements of the energy, each of which costs as much as a step.
 const BLOCK: u32 = 20;
 
-/// The growth of energy that a stable vibration does not reach: 0.1 % below the limit its energy
-/// as it is measured here varies 500 times.
+/// The growth of energy that no stable vibration reaches: 0.1 % below the limit the energy as measured here
+/// varies by a factor of 500.
 const GROWTH: f64 = 1e6;
 
-/// How far points are moved out of the rest shape, of the distance between neighbours.
+/// The displacement out of the rest shape, as a fraction of the distance between neighbours.
 const NUDGE: f64 = 1e-8;
 
-/// The steps a second at which the cloth of `scene` at rest becomes stable, to 0.1 %; none for an
-/// integrator that stands every step, or springs without stiffness.
+/// The steps a second at which the cloth of `scene` at rest becomes stable, to 0.1 %; `None` for an
+/// integrator that is stable at every step, or springs without stiffness.
 ///
 /// # Errors
 /// As [`Simulation::new`].
@@ -54,9 +53,9 @@ pub fn at_rest(scene: &Scene, cloth: &Cloth) -> Result<Option<f64>> {
     })
 }
 
-/// The steps a second at which `scene` becomes stable over `time` seconds, to 1 %, and no more than
-/// at worst if it is stable there; none as for [`at_rest`], or if it is stable at half the bound at
-/// rest, or unstable at twice the one at worst.
+/// The steps a second at which `scene` becomes stable over `time` seconds, to 1 %; at most the bound at worst
+/// if it is stable there. `None` as for [`at_rest`], or if it is stable at half the bound at rest, or
+/// unstable at twice the bound at worst.
 ///
 /// # Errors
 /// As [`Simulation::new`].
@@ -71,8 +70,8 @@ pub fn in_motion(scene: &Scene, cloth: &Cloth, time: f64) -> Result<Option<f64>>
         let shortest = frames(SHORTEST / steps_per_frame, 1.0);
         Ok(run(&scene, frames(time, scene.sim.fps).max(shortest))?.outcome.is_unstable())
     };
-    // The edge is often at worst itself, above which the ledger does not judge: an interval across it
-    // would have an end above.
+    // The edge is often the bound at worst itself, above which the ledger is not judged: an interval across
+    // it would end above it.
     match bisect([0.5 * rest, worst], 0.01, &mut is_unstable)? {
         None => bisect([worst, 2.0 * worst], 0.01, is_unstable),
         found => Ok(found),
@@ -113,7 +112,7 @@ fn bisect(
     Ok(Some(high))
 }
 
-/// Whether a small vibration of the cloth of `scene` grows without end.
+/// Whether a small vibration of the cloth of `scene` grows without limit.
 fn grows(scene: &Scene) -> Result<bool> {
     let mut simulation = Simulation::new(scene)?;
     simulation.allow_unstable();

@@ -1,54 +1,37 @@
 //! Speed against accuracy, measured: the matrix method × steps per second × stiffness of a scene's
-//! cloth against a self-converged reference, the ways of drawing it against a converged picture, and
-//! what follows from both: which to use if so much can be paid.
+//! cloth against a self-converged reference, the ways to draw the scene against a converged picture,
+//! and the advice that follows: the best choice within a budget.
 
-pub mod hull;
+pub mod extent;
+pub mod source;
+pub mod method;
+mod rates;
 pub mod matrix;
-pub mod pictures;
-pub mod reference;
-mod report;
-mod results;
-pub mod runs;
-pub mod store;
 pub mod trajectory;
+pub mod reference;
+pub mod runs;
+pub mod pareto;
+pub mod pictures;
+mod findings;
+mod results;
+mod page;
 
 use rayon::prelude::*;
 
+use crate::store::Store;
 use drape::error::Result;
 use drape::texture_source::TextureSource;
-use hull::{Advice, advice, hull};
-use matrix::{Extent, Panel, Source, panels, run_name};
-use pictures::Pictures;
-use reference::{COMPARED, DRAWN, RUNGS, Reference, converge};
-use runs::{Measured, Outcome};
-use store::Store;
+use extent::Extent;
+use matrix::{Panel, panels};
+use reference::{RUNGS, converge};
+use source::Source;
 
-pub use report::page;
+pub use findings::{Cost, PanelStudy, Study};
+pub use page::page;
 pub use results::{Results, csv};
 
-/// Everything that a study found.
-pub struct Study {
-    /// What was run.
-    pub extent: Extent,
-    /// The stiffnesses.
-    pub panels: Vec<PanelStudy>,
-    /// Stiffnesses over mass, in 1/s², that would take too long.
-    pub left_out: Vec<f64>,
-    /// The ways of drawing, if the scene can be studied so.
-    pub pictures: Option<Pictures>,
-}
-
-/// What was found at one stiffness.
-pub struct PanelStudy {
-    /// The cells that were run.
-    pub panel: Panel,
-    /// What they were held against.
-    pub reference: Reference,
-    /// What was measured of each cell.
-    pub cells: Vec<Measured>,
-}
-
-/// How many steps [`run`] tells `watch` of, but for what the references need beyond their first five runs.
+/// The number of steps that [`run`] tells `watch`, without those of references that need more than five
+/// runs.
 ///
 /// # Errors
 /// As [`matrix::panels`].
@@ -62,8 +45,8 @@ pub fn steps(source: &Source, extent: &Extent) -> Result<u64> {
     Ok(panels(source, extent)?.iter().map(of).sum())
 }
 
-/// Runs what `store` does not have. `watch` is told the steps that were made since it was last called,
-/// from several threads, and can end the study.
+/// Runs what `store` does not have. `watch` is told the number of steps since its last call, from several
+/// threads, and can end the study with an error.
 ///
 /// # Errors
 /// Those of the scene, of the simulations, of the renderer, of the store and of `watch`.
@@ -74,7 +57,7 @@ pub fn run(
     store: &Store,
     watch: &(dyn Fn(u32) -> Result<()> + Sync),
 ) -> Result<Study> {
-    // References run side by side: nothing of them is timed.
+    // References run side by side, since they are not timed.
     let (panels, left_out): (Vec<Panel>, Vec<Panel>) =
         panels(source, extent)?.into_iter().partition(|panel| !panel.cells.is_empty());
     let with_reference = |panel: Panel| {
@@ -94,97 +77,4 @@ pub fn run(
     };
     let left_out = left_out.iter().map(|panel| panel.k_over_m).collect();
     Ok(Study { extent: extent.clone(), panels, left_out, pictures })
-}
-
-/// What is paid for accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cost {
-    /// Wall time per simulated second, in seconds, on this machine.
-    Wall,
-    /// Springs visited per simulated second, on every machine.
-    Springs,
-}
-
-impl PanelStudy {
-    /// The number of the last moment at which most cells can be told from the reference.
-    pub fn moment(&self) -> usize {
-        let told = |moment: &usize| {
-            let sound: Vec<_> = self.cells.iter().filter(|cell| cell.outcome == Outcome::Ok).collect();
-            let above = sound.iter().filter(|cell| self.is_above(cell, *moment, COMPARED)).count();
-            2 * above >= sound.len()
-        };
-        (0..self.reference.floor.len()).rev().find(told).unwrap_or(0)
-    }
-
-    /// Whether the error of a cell at a moment can be told from that of the reference.
-    pub fn is_compared(&self, cell: &Measured, moment: usize) -> bool {
-        self.is_above(cell, moment, DRAWN)
-    }
-
-    /// The same for cell number `cell` at the panel's moment.
-    fn is_told(&self, cell: usize) -> bool {
-        self.cells.get(cell).is_some_and(|cell| self.is_compared(cell, self.moment()))
-    }
-
-    fn is_above(&self, cell: &Measured, moment: usize, part: f64) -> bool {
-        let pair = cell.errors.get(moment).zip(self.reference.floor.get(moment));
-        pair.is_some_and(|(error, floor)| error.is_above(floor, part))
-    }
-
-    /// Cost and error of each cell at the panel's moment; no number for cells that are not sound or did
-    /// not reach it. The error of a cell that is not compared is the most that it can be: the smallest
-    /// that is.
-    pub fn points(&self, cost: Cost) -> Vec<[f64; 2]> {
-        let moment = self.moment();
-        let point = |cell: &Measured| {
-            let pair = cell.errors.get(moment).zip(self.reference.floor.get(moment));
-            let sound = pair.filter(|_| cell.outcome == Outcome::Ok);
-            let error = sound.map_or(f64::NAN, |(error, floor)| error.rms.max(floor.rms / DRAWN));
-            [self.cost(cell, cost), error]
-        };
-        self.cells.iter().map(point).collect()
-    }
-
-    /// What a cell costs.
-    pub fn cost(&self, cell: &Measured, cost: Cost) -> f64 {
-        match cost {
-            Cost::Wall => cell.wall(),
-            Cost::Springs => cell.springs,
-        }
-    }
-
-    /// The cells that no other beats, in order of their cost.
-    pub fn hull(&self, cost: Cost) -> Vec<usize> {
-        hull(&self.rivals(cost))
-    }
-
-    /// Which cell to use for which budget of wall time.
-    pub fn advice(&self) -> Vec<Advice> {
-        advice(&self.rivals(Cost::Wall))
-    }
-
-    /// The [`PanelStudy::points`] of cells that differ: where what a method adds does nothing, its times
-    /// differ from those of the method without it by chance alone.
-    fn rivals(&self, cost: Cost) -> Vec<[f64; 2]> {
-        let mut points = self.points(cost);
-        for (i, point) in points.iter_mut().enumerate() {
-            let errors = &self.cells[i].errors;
-            if self.cells[..i].iter().any(|other| other.errors == *errors) {
-                point[1] = f64::NAN;
-            }
-        }
-        points
-    }
-
-    /// A cell in words, such as `Verlet, report start at 2700 steps/s`.
-    pub fn name(&self, cell: usize) -> String {
-        self.cells.get(cell).map_or_else(String::new, |cell| run_name(cell.method, cell.rate))
-    }
-}
-
-impl Pictures {
-    /// Milliseconds and root of the mean squared difference of each way.
-    pub fn points(&self) -> Vec<[f64; 2]> {
-        self.drawn.iter().map(|drawn| [drawn.ms(), drawn.rmse]).collect()
-    }
 }

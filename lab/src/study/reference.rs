@@ -1,23 +1,25 @@
 //! The reference: the model itself, run with ever smaller steps until the answer no longer changes.
 //!
-//! The first method of the matrix at the finest step of any cell, S steps per second, is the most
-//! accurate cell. Runs at 2 S, 4 S, 8 S, ... follow until two in a row agree a hundred times better
-//! than the last agrees with S; or until halving the step no longer brings them closer; or until the
-//! next run would take too long. How far the last two differ is the floor: errors are drawn from ten
-//! times the floor on, and a moment is compared while most errors are a hundred times the floor.
+//! The most accurate cell of the matrix is its first method at the finest step of any cell, S steps per
+//! second. Runs at 2 S, 4 S, 8 S, ... follow until two successive runs agree a hundred times better than
+//! the last agrees with S, or halving the step no longer brings them closer, or the next run would take
+//! too long. The distance of the last two is the floor. Errors are drawn if they are at least ten times
+//! the floor, and a moment is compared while most errors are a hundred times the floor.
 //!
-//! Smaller steps are not always better: a step adds the displacement of one step to a position, which
-//! rounds it, the more roughly the shorter the step is. Measured on the stock cloth at a thousandth of
-//! its density, after 0.2 s: 126 540 and 253 080 steps/s agree to 3.5e-9 m, but 253 080 and 506 160 only
-//! to 1.3e-7 m. The pair that agrees best is kept.
+//! Smaller steps are not always better: a step adds its displacement to a position, and the shorter the
+//! step, the larger is the rounding of that sum compared with the displacement. Measured on the stock
+//! cloth at a thousandth of its density, after 0.2 s: 126 540 and 253 080 steps/s agree to 3.5e-9 m, but
+//! 253 080 and 506 160 only to 1.3e-7 m. The pair that agrees best is kept.
 
 use serde::Serialize;
 
-use super::matrix::{Extent, Panel, Source, clock};
-use super::store::Store;
+use super::extent::Extent;
+use super::matrix::Panel;
+use super::rates::clock;
+use super::source::Source;
 use super::trajectory::{self, Limits, Moment, Trajectory};
+use crate::store::{Store, key};
 use drape::error::{Error, Kind, Result};
-use drape::math::StateHash;
 
 /// An error is drawn if the floor is at most this part of it.
 pub(super) const DRAWN: f64 = 0.1;
@@ -25,7 +27,7 @@ pub(super) const DRAWN: f64 = 0.1;
 /// A moment is compared if the floor is at most this part of most errors.
 pub(super) const COMPARED: f64 = 0.01;
 
-/// Runs that [`converge`] tells of, as multiples of the steps of the first: as many as five runs make.
+/// Steps that [`converge`] announces to `watch`, as a multiple of those of the first run: as many as five runs make.
 pub(super) const RUNGS: u32 = 1 + 2 + 4 + 8 + 16;
 
 /// The self-converged answer of one panel.
@@ -33,14 +35,14 @@ pub(super) const RUNGS: u32 = 1 + 2 + 4 + 8 + 16;
 pub struct Reference {
     /// Steps per second of the two runs that agree best.
     pub rates: [u32; 2],
-    /// How far the two differ at each moment.
+    /// The difference of the two at each moment.
     pub floor: Vec<Difference>,
     /// The one of them with the smaller step.
     #[serde(skip)]
     pub moments: Vec<Moment>,
 }
 
-/// How far points are from where they should be, in metres.
+/// The distances between the points of two runs at one moment, in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, serde::Deserialize)]
 pub struct Difference {
     /// Simulated time, in seconds.
@@ -52,7 +54,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// How far `a` is from `b`, the same moment of another run.
+    /// The difference of `a` from `b`, the same moment of another run.
     pub fn between(a: &Moment, b: &Moment) -> Self {
         let (mut sum, mut max) = (0.0, 0.0_f64);
         let points = b.x[0].len();
@@ -64,21 +66,21 @@ impl Difference {
         Self { time: b.time, rms: (sum / points.max(1) as f64).sqrt(), max: max.sqrt() }
     }
 
-    /// Whether a reference with this floor is better than `part` of this error.
+    /// Whether `floor` is at most `part` of this error.
     pub(super) fn is_above(&self, floor: &Self, part: f64) -> bool {
         floor.rms <= part * self.rms
     }
 }
 
-/// How far each moment of `a` is from that of `b`.
+/// The difference of each moment of `a` from that of `b`.
 pub fn differences(a: &[Moment], b: &[Moment]) -> Vec<Difference> {
     a.iter().zip(b).map(|(a, b)| Difference::between(a, b)).collect()
 }
 
-/// The reference of `panel`. Runs that `store` has are not made again.
+/// The reference of `panel`. Runs that are in `store` are not repeated.
 ///
 /// # Errors
-/// [`Kind::Unstable`] when the model is lost even at the finest step; otherwise as [`trajectory::run`].
+/// [`Kind::Unstable`] when the cloth is lost even at the finest step; otherwise as [`trajectory::run`].
 pub fn converge(
     source: &Source,
     panel: &Panel,
@@ -103,8 +105,8 @@ pub fn converge(
     }
     watch((panel.finest / 10 * extent.last()).saturating_mul(RUNGS.saturating_sub(made)))?;
     if now.moments.len() < extent.tenths.len() {
-        return Err(Error::new(Kind::Unstable, "the reference is lost even with the smallest step")
-            .with_help("study a scene that is stable: see `drape info`"));
+        return Err(Error::new(Kind::Unstable, "the reference is unstable even with the smallest step")
+            .with_help("study a stable scene; `drape info` shows the bound"));
     }
     let rate = panel.finest * times;
     Ok(Reference { rates: [rate / 2, rate], floor, moments: now.moments })
@@ -136,20 +138,13 @@ fn rung(
     let key = key("rung", &(&scene, &extent.tenths));
     let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_reference };
     if let Some(kept) = store.get(key) {
-        store.note_found();
+        store.count_found();
         watch(rate / 10 * extent.last())?;
         return Ok(kept);
     }
     let run = trajectory::run(&scene, rate, limits, watch)?;
     store.put(key, &run)?;
     Ok(run)
-}
-
-/// What a result of a `kind` is kept under: a hash of `what` it depends on and of the version.
-pub(super) fn key(kind: &str, what: &impl std::fmt::Debug) -> u64 {
-    let mut hash = StateHash::default();
-    hash.write(format!("{} {kind} {what:?}", env!("CARGO_PKG_VERSION")).as_bytes());
-    hash.finish()
 }
 
 #[cfg(test)]

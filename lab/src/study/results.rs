@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::hull::{Advice, advice, hull};
-use super::matrix::{METHODS, MODEL, Method};
-use super::pictures::Drawn;
+use super::findings::{Cost, PanelStudy, Study};
+use super::method::{METHODS, MODEL, Method};
+use super::pareto::{Advice, advice, front};
+use super::pictures::{Drawn, Pictures};
 use super::reference::Difference;
 use super::runs::Measured;
-use super::{Cost, PanelStudy, Study};
 use crate::csv::Csv;
 use crate::page::short;
 
@@ -19,13 +19,13 @@ pub struct Results<'a> {
     threads: usize,
     runs_made: u64,
     runs_kept: u64,
-    /// When positions are compared, in seconds.
+    /// The moments at which positions are compared, in seconds.
     times: Vec<f64>,
-    /// The changes that make the model of a scene.
+    /// The changes that turn the scene into the model.
     model: [&'static str; 6],
     methods: &'static [Method],
     panels: Vec<PanelResults<'a>>,
-    /// Stiffnesses over mass, in 1/s², that would have taken too long.
+    /// Stiffnesses over mass, in 1/s², whose reference would take too long.
     left_out: &'a [f64],
     pictures: Option<PictureResults<'a>>,
 }
@@ -33,18 +33,19 @@ pub struct Results<'a> {
 #[derive(Serialize)]
 struct PanelResults<'a> {
     density: f64,
-    /// Which cloth that is, against the scene's.
+    /// The cloth compared with the scene's.
     cloth: String,
     k_over_m: f64,
     stable_rate: f64,
     reference_rates: [u32; 2],
-    /// How far the last two runs of the reference differ.
+    /// The difference of the last two runs of the reference.
     floor: &'a [Difference],
-    /// The time at which costs and errors are weighed, in seconds.
+    /// The moment of the front and the advice, in seconds.
     time: f64,
     cells: Vec<CellResults<'a>>,
+    /// The Pareto front by wall time.
     hull: Vec<String>,
-    /// The hull with counted cost instead of wall time: the same on every machine.
+    /// The Pareto front by springs visited, which is the same on every machine.
     hull_counted: Vec<String>,
     advice: Vec<Choice>,
 }
@@ -53,7 +54,7 @@ struct PanelResults<'a> {
 struct CellResults<'a> {
     name: String,
     wall: f64,
-    /// For each time, whether the error can be told from that of the reference.
+    /// For each moment, whether the error can be distinguished from that of the reference.
     compared: Vec<bool>,
     #[serde(flatten)]
     measured: &'a Measured,
@@ -65,6 +66,7 @@ struct PictureResults<'a> {
     height: u32,
     floor: f64,
     ways: Vec<WayResults<'a>>,
+    /// The Pareto front.
     hull: Vec<String>,
     advice: Vec<Choice>,
 }
@@ -77,7 +79,7 @@ struct WayResults<'a> {
     drawn: &'a Drawn,
 }
 
-/// What to use if so much can be paid.
+/// The best choice within a budget.
 #[derive(Serialize)]
 struct Choice {
     budget: f64,
@@ -85,12 +87,12 @@ struct Choice {
     choice: String,
     cost: f64,
     error: f64,
-    /// Whether the error may be smaller: it cannot be told from that of the reference.
+    /// Whether `error` is only a bound, since it cannot be distinguished from that of the reference.
     at_most: bool,
 }
 
 impl<'a> Results<'a> {
-    /// The results of `study` of the scene called `scene`, with how many runs were made and kept.
+    /// The results of `study` of the scene called `scene`; the counts are those of [`crate::store::Store::counts`].
     pub fn new(study: &'a Study, scene: &'a str, [runs_made, runs_kept]: [u64; 2]) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),
@@ -101,21 +103,9 @@ impl<'a> Results<'a> {
             times: study.extent.tenths.iter().map(|&tenth| f64::from(tenth) / 10.0).collect(),
             model: MODEL,
             methods: &METHODS,
-            panels: study.panels.iter().map(PanelStudy::results).collect(),
+            panels: study.panels.iter().map(PanelResults::new).collect(),
             left_out: &study.left_out,
-            pictures: study.pictures.as_ref().map(|pictures| {
-                let points = pictures.points();
-                let name = |i: usize| pictures.drawn[i].way.text();
-                let [width, height] = pictures.size();
-                PictureResults {
-                    width,
-                    height,
-                    floor: pictures.floor,
-                    ways: pictures.drawn.iter().map(WayResults::new).collect(),
-                    hull: hull(&points).into_iter().map(name).collect(),
-                    advice: choices(&advice(&points), &points, |i| (name(i), false)),
-                }
-            }),
+            pictures: study.pictures.as_ref().map(PictureResults::new),
         }
     }
 
@@ -124,7 +114,7 @@ impl<'a> Results<'a> {
         let mut text = String::new();
         for panel in &self.panels {
             text += &format!(
-                "k/m {:.2e} /s² ({}: {} kg/m²), error at {} s, in s of work per simulated s:\n",
+                "k/m {:.2e} /s² ({}: {} kg/m²), wall time per simulated second and error at {} s:\n",
                 panel.k_over_m,
                 panel.cloth,
                 short(panel.density),
@@ -133,7 +123,8 @@ impl<'a> Results<'a> {
             text += &lines(&panel.advice, "s", "m");
         }
         if let Some(pictures) = &self.pictures {
-            text += &format!("pictures of {} x {}, in ms:\n", pictures.width, pictures.height);
+            text +=
+                &format!("pictures of {} x {}, time to draw and error:\n", pictures.width, pictures.height);
             text += &lines(&pictures.advice, "ms", "of 255");
         }
         text
@@ -158,28 +149,48 @@ fn choices(advice: &[Advice], points: &[[f64; 2]], of: impl Fn(usize) -> (String
     advice.iter().map(choice).collect()
 }
 
-impl PanelStudy {
-    fn results(&self) -> PanelResults<'_> {
-        let Self { panel, reference, cells } = self;
-        let named = |hull: Vec<usize>| hull.into_iter().map(|i| self.name(i)).collect();
-        PanelResults {
+impl<'a> PanelResults<'a> {
+    fn new(study: &'a PanelStudy) -> Self {
+        let PanelStudy { panel, reference, cells } = study;
+        let named = |cells: Vec<usize>| cells.into_iter().map(|i| study.name(i)).collect();
+        Self {
             density: panel.density,
             cloth: panel.cloth(),
             k_over_m: panel.k_over_m,
             stable_rate: panel.stable_rate,
             reference_rates: reference.rates,
             floor: &reference.floor,
-            time: reference.floor.get(self.moment()).map_or(0.0, |floor| floor.time),
-            cells: cells.iter().enumerate().map(|(i, cell)| self.cell_results(i, cell)).collect(),
-            hull: named(self.hull(Cost::Wall)),
-            hull_counted: named(self.hull(Cost::Springs)),
-            advice: choices(&self.advice(), &self.points(Cost::Wall), |i| (self.name(i), !self.is_told(i))),
+            time: reference.floor.get(study.moment()).map_or(0.0, |floor| floor.time),
+            cells: cells.iter().enumerate().map(|(i, cell)| CellResults::new(study, i, cell)).collect(),
+            hull: named(study.front(Cost::Wall)),
+            hull_counted: named(study.front(Cost::Springs)),
+            advice: choices(&study.advice(), &study.points(Cost::Wall), |i| {
+                (study.name(i), !study.is_distinct(i))
+            }),
         }
     }
+}
 
-    fn cell_results<'a>(&'a self, number: usize, measured: &'a Measured) -> CellResults<'a> {
-        let compared = (0..measured.errors.len()).map(|moment| self.is_compared(measured, moment)).collect();
-        CellResults { name: self.name(number), wall: measured.wall(), compared, measured }
+impl<'a> CellResults<'a> {
+    fn new(study: &PanelStudy, number: usize, measured: &'a Measured) -> Self {
+        let compared = (0..measured.errors.len()).map(|moment| study.is_compared(measured, moment)).collect();
+        Self { name: study.name(number), wall: measured.wall(), compared, measured }
+    }
+}
+
+impl<'a> PictureResults<'a> {
+    fn new(pictures: &'a Pictures) -> Self {
+        let points = pictures.points();
+        let name = |i: usize| pictures.drawn[i].way.text();
+        let [width, height] = pictures.size();
+        Self {
+            width,
+            height,
+            floor: pictures.floor,
+            ways: pictures.drawn.iter().map(WayResults::new).collect(),
+            hull: front(&points).into_iter().map(name).collect(),
+            advice: choices(&advice(&points), &points, |i| (name(i), false)),
+        }
     }
 }
 

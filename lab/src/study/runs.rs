@@ -1,29 +1,31 @@
-//! The cells of the matrix, each run alone and timed, and held against the reference.
+//! The cells of the matrix: each is run alone, timed, and compared with the reference.
 
 use serde::{Deserialize, Serialize};
 
-use super::matrix::{Cell, Extent, Panel, Source};
-use super::reference::{Difference, Reference, differences, key};
-use super::store::Store;
+use super::extent::Extent;
+use super::matrix::{Cell, Panel};
+use super::reference::{Difference, Reference, differences};
+use super::source::Source;
 use super::trajectory::{self, Limits, Moment, Trajectory};
+use crate::store::{Store, key};
 use drape::error::Result;
 
-/// The part of the energy released by the fall by which a cloth may hold more than the reference. A
-/// cloth that holds so much more is as high as one that fell a hundredth less far, which shows in a plot of
-/// its errors; and the reference knows its own energy a thousand times better (halving its step changes
-/// it by less than 1e-5 of what was released on the stock cloth at every stiffness).
+/// The energy that a cloth may hold beyond the reference's, as a fraction of the energy that the fall
+/// released. A hundredth is the height of a cloth that fell a hundredth less far, which shows in a plot of
+/// the errors, and the energy of the reference is known a thousand times better: halving its step changes
+/// it by less than 1e-5 of what was released, on the stock cloth at every stiffness.
 const ENERGY_BOUND: f64 = 0.01;
 
-/// How a run fared up to the last moment that it reached, from good to worst.
+/// The outcome of a run up to the last moment that it reached, from good to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Every position is a number and the energy within its bounds.
     Ok,
-    /// The cloth holds more energy than the reference does at that time: it gained it, or was not
-    /// rid of it as the model is.
+    /// The cloth holds more energy than the reference at that time: it gained energy, or dissipated less than
+    /// the model does.
     EnergyAboveReference,
-    /// The cloth holds more energy than it started with: nothing in the model puts any in.
+    /// The cloth holds more energy than it started with, although nothing in the model adds any.
     EnergyAboveBound,
     /// A position or an energy is no longer a number.
     Lost,
@@ -44,19 +46,19 @@ impl Outcome {
     }
 }
 
-/// What was measured of a cell.
+/// The measurements of a cell.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Measured {
-    /// Number of the method.
+    /// Index of the method.
     pub method: usize,
     /// Steps per second.
     pub rate: u32,
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
     /// Distance from the reference at each moment that was reached.
     pub errors: Vec<Difference>,
-    /// Energy above the reference's over the energy that the fall released, at the last moment that was
-    /// reached; positive means gained. Absent when the cloth was lost or nothing fell.
+    /// Energy beyond the reference's, as a fraction of the energy that the fall released, at the last moment that
+    /// was reached; positive means gained. Absent when the cloth was lost or nothing fell.
     pub drift: Option<f64>,
     /// Largest length of a spring over its rest length at the moments.
     pub stretch: f64,
@@ -98,8 +100,8 @@ impl Measured {
     }
 }
 
-/// How a cloth fares that may hold `bound` J more than it started with or than the reference, which is
-/// `right`.
+/// The outcome at the moment `now`, when the reference is at `right`; a cloth may hold `bound` J more than it
+/// started with and than the reference.
 fn judge(now: &Moment, right: &Moment, bound: f64) -> Outcome {
     if now.energy > bound {
         Outcome::EnergyAboveBound
@@ -110,7 +112,7 @@ fn judge(now: &Moment, right: &Moment, bound: f64) -> Outcome {
     }
 }
 
-/// The middle of `values`, or the mean of both in the middle; 0 for none.
+/// The median of `values`; 0 for none.
 pub(super) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -121,8 +123,8 @@ pub(super) fn median(values: &[f64]) -> f64 {
     }
 }
 
-/// Measures the cells of all panels, one run at a time. The repetitions of a cell are interleaved with
-/// the other cells, so that a machine that is slow for a while is not slow for one cell alone.
+/// Measures the cells of all panels, one run at a time. The repetitions of a cell alternate with those of the
+/// other cells, so that a machine that is slow for a while does not slow one cell alone.
 ///
 /// # Errors
 /// Those of [`trajectory::run`].
@@ -133,48 +135,70 @@ pub fn measure(
     store: &Store,
     watch: &(dyn Fn(u32) -> Result<()> + Sync),
 ) -> Result<Vec<Vec<Measured>>> {
-    let mut all: Vec<Vec<Option<Measured>>> = Vec::new();
-    let mut keys = Vec::new();
-    for (panel, reference) in panels {
-        let model = source.scene(&panel.sets)?;
-        let of = |cell: &Cell| {
-            key("run", &(&cell.scene, &extent.tenths, extent.most_springs, &model, reference.rates))
-        };
-        keys.push(panel.cells.iter().map(of).collect::<Vec<_>>());
-        let kept = keys.last().into_iter().flatten().map(|key| store.get::<Measured>(*key));
-        let kept: Vec<_> = kept.collect();
-        kept.iter().flatten().flat_map(|kept| &kept.walls).for_each(|_| store.note_found());
-        all.push(kept);
-    }
-    for round in 0..extent.repeats {
-        for ((panel, reference), (measured, keys)) in panels.iter().zip(all.iter_mut().zip(&keys)) {
-            for (cell, (measured, key)) in panel.cells.iter().zip(measured.iter_mut().zip(keys)) {
-                if measured.as_ref().is_some_and(|kept| kept.is_done(round, extent)) {
-                    watch(cell.rate / 10 * extent.last())?;
-                    continue;
-                }
-                let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_springs };
-                let run = trajectory::run(&cell.scene, cell.rate, limits, watch)?;
-                match measured {
-                    Some(measured) => measured.walls.push(run.wall),
-                    None => *measured = Some(Measured::new(cell, &run, reference)),
-                }
-                store.put(*key, &measured)?;
+    let slots =
+        panels.iter().map(|(panel, reference)| Slot::of_panel(source, panel, reference, extent, store));
+    let mut slots: Vec<Vec<Slot<'_>>> = slots.collect::<Result<_>>()?;
+    for repetition in 0..extent.repeats {
+        for slot in slots.iter_mut().flatten() {
+            if slot.measured.as_ref().is_some_and(|stored| stored.is_done(repetition, extent)) {
+                watch(slot.cell.rate / 10 * extent.last())?;
+            } else {
+                slot.measure(extent, store, watch)?;
             }
         }
     }
-    Ok(all.into_iter().map(|panel| panel.into_iter().flatten().collect()).collect())
+    Ok(slots.into_iter().map(|panel| panel.into_iter().filter_map(|slot| slot.measured).collect()).collect())
+}
+
+/// A cell that is being measured.
+struct Slot<'a> {
+    cell: &'a Cell,
+    reference: &'a Reference,
+    key: u64,
+    measured: Option<Measured>,
+}
+
+impl<'a> Slot<'a> {
+    /// The slots of a panel's cells, with the results that `store` has.
+    fn of_panel(
+        source: &Source,
+        panel: &'a Panel,
+        reference: &'a Reference,
+        extent: &Extent,
+        store: &Store,
+    ) -> Result<Vec<Self>> {
+        let model = source.scene(&panel.sets)?;
+        let slot = |cell: &'a Cell| {
+            let key =
+                key("run", &(&cell.scene, &extent.tenths, extent.most_springs, &model, reference.rates));
+            let measured: Option<Measured> = store.get(key);
+            measured.iter().flat_map(|stored| &stored.walls).for_each(|_| store.count_found());
+            Self { cell, reference, key, measured }
+        };
+        Ok(panel.cells.iter().map(slot).collect())
+    }
+
+    /// Runs the cell once more and stores what is known of it.
+    fn measure(&mut self, extent: &Extent, store: &Store, watch: &dyn Fn(u32) -> Result<()>) -> Result<()> {
+        let limits = Limits { tenths: &extent.tenths, most_springs: extent.most_springs };
+        let run = trajectory::run(&self.cell.scene, self.cell.rate, limits, watch)?;
+        match &mut self.measured {
+            Some(measured) => measured.walls.push(run.wall),
+            None => self.measured = Some(Measured::new(self.cell, &run, self.reference)),
+        }
+        store.put(self.key, &self.measured)
+    }
 }
 
 impl Measured {
-    /// Whether the repetition number `round` was made, would take too long, or tells nothing.
-    fn is_done(&self, round: usize, extent: &Extent) -> bool {
+    /// Whether repetition number `repetition` is there, would take too long, or would tell nothing.
+    fn is_done(&self, repetition: usize, extent: &Extent) -> bool {
         let spent = self.walls.iter().sum::<f64>() * 0.1 * f64::from(extent.last());
         let whole = self.errors.len() == extent.tenths.len();
-        !whole || self.walls.len() > round || spent > extent.patience
+        !whole || self.walls.len() > repetition || spent > extent.patience
     }
 
-    /// How it fared, in words: with the time at which it was given up, if it was after a moment.
+    /// The outcome in words, with the last of the `moments` reached by a run that was given up later.
     pub fn fate(&self, moments: usize) -> String {
         let reached = self.errors.last().filter(|_| self.errors.len() < moments);
         match (self.outcome, reached) {

@@ -1,4 +1,4 @@
-//! One run: where the points are at each moment, with what energy, and how long it took.
+//! One run: the positions and the energy of the cloth at each moment, and what the run cost.
 
 use std::time::{Duration, Instant};
 
@@ -9,23 +9,23 @@ use drape::error::Result;
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
-/// Most steps between two looks at what was spent.
-const PATIENCE: u32 = 10;
+/// Most steps between two checks of the cost.
+const STEPS_PER_CHECK: u32 = 10;
 
-/// How many times as much may be spent to reach the first moment: a run that ends before it tells nothing.
+/// Factor on the allowed cost up to the first moment: a run that ends before it gives no result at all.
 const FIRST: f64 = 2.0;
 
-/// What a run gave.
+/// The result of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trajectory {
-    /// The moments; those after the cloth was lost or the run given up are absent.
+    /// The moments that were reached before the cloth was lost or the run was given up.
     pub moments: Vec<Moment>,
-    /// Springs that were visited per simulated second: to compute a force or a product with the
-    /// stiffness matrix, or to limit a stretch.
+    /// Springs visited per simulated second: to compute a force, to multiply with the stiffness matrix, or
+    /// to limit a stretch.
     pub springs: f64,
     /// Wall time per simulated second, in seconds.
     pub wall: f64,
-    /// Whether it was given up because it became too dear.
+    /// Whether it was given up because it cost too much.
     pub given_up: bool,
 }
 
@@ -44,18 +44,18 @@ pub struct Moment {
     pub stretch: f64,
 }
 
-/// How long a run is, and what it may cost.
+/// The length of a run, and the cost that it may reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
-    /// When it is looked at, in tenths of a second, ascending.
+    /// The moments, in tenths of a second, ascending.
     pub tenths: &'a [u32],
-    /// After how many springs, about, it is given up, or twice as many before the first moment: how
-    /// many an implicit step visits is not known before it is made.
+    /// Springs after which the run is given up, or twice as many before the first moment. A run may pass it by
+    /// a few steps: how many springs an implicit step visits is known only afterwards.
     pub most_springs: f64,
 }
 
-/// Runs `scene` at `rate` steps per second, a multiple of 10. `watch` is told the steps that were made
-/// since it was last called, in the end those of a whole run, and can end the run.
+/// Runs `scene` at `rate` steps per second, a multiple of 10. `watch` is told the number of steps since its
+/// last call, which add up to those of a complete run, and can end the run with an error.
 ///
 /// # Errors
 /// Those of [`Simulation::new`] and of `watch`.
@@ -91,7 +91,7 @@ pub fn run(
     Ok(Trajectory { moments, springs: springs(&run.simulation) / simulated, wall, given_up })
 }
 
-/// Springs that were visited so far.
+/// Springs visited so far.
 #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
 fn springs(simulation: &Simulation) -> f64 {
     let counters = simulation.counters();
@@ -102,20 +102,20 @@ fn springs(simulation: &Simulation) -> f64 {
 struct Run<'a> {
     simulation: Simulation,
     elapsed: Duration,
-    /// Steps that `watch` was not told of yet.
+    /// Steps that `watch` was not told yet.
     left: u32,
     watch: &'a dyn Fn(u32) -> Result<()>,
 }
 
 impl Run<'_> {
-    /// Makes `steps` steps; whether no more than `most` springs were visited before the last of them.
+    /// Makes `steps` steps, and stops once more than `most` springs were visited; whether it made them all.
     fn advance(&mut self, steps: u32, most: f64) -> Result<bool> {
         let mut left = steps;
         while left > 0 {
             if springs(&self.simulation) > most {
                 return Ok(false);
             }
-            let some = left.min(PATIENCE);
+            let some = left.min(STEPS_PER_CHECK);
             let started = Instant::now();
             (0..some).for_each(|_| self.simulation.step());
             self.elapsed += started.elapsed();
@@ -127,8 +127,8 @@ impl Run<'_> {
     }
 }
 
-/// Measures energies with velocities at the moment itself: `(x₊ - x₋) / 2 dt` over the steps before and
-/// after it, which is second order for every method; `(x - x₋) / dt` would lag half a step behind.
+/// Measures energies with the velocity at the moment itself: `(x₊ - x₋) / 2 dt` over the steps before and
+/// after it, which is of second order for every method; `(x - x₋) / dt` would lag half a step behind.
 struct Probe {
     simulation: Simulation,
     start: [f64; 2],
@@ -143,7 +143,7 @@ impl Probe {
         Ok(Self { start: [energy.total(), energy.gravitational], simulation })
     }
 
-    /// The state of `now`, whose points were at `before` one step ago; nothing once a point is lost.
+    /// The moment of `now`, whose points were at `before` one step ago; `None` once a point is lost.
     fn moment(&mut self, now: &Simulation, before: &Points, time: f64) -> Result<Option<Moment>> {
         let mut next = now.clone();
         next.step();
@@ -162,7 +162,7 @@ impl Probe {
             height: energy.gravitational - height,
             stretch: self.simulation.extremes().stretch,
         };
-        // An energy that is no number, or too large for one, belongs to a cloth that is lost.
+        // A cloth whose energy is not finite is lost.
         Ok(Some(moment).filter(|moment| moment.energy.is_finite() && moment.stretch.is_finite()))
     }
 }

@@ -1,25 +1,29 @@
 //! Tests of the plan.
 
 use super::*;
-use crate::scene::{Overrides, load_text};
+use crate::scene::{Overrides, SelfCollision, Shader, load_text};
 
 const TWO_BALLS: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 5, "num_height_points": 5,
         "thickness": 0.01, "orientation": 0, "damping": 0.2, "density": 150, "ks": 5000,
         "enable_structural": true, "enable_shearing": false, "enable_bending": true},
         "sphere": [{"origin": [0, 0, 0], "radius": 1, "friction": 0}, {"origin": [3, 0, 0], "radius": 1, "friction": 0}]}"#;
 
-fn plan(text: &str, sets: &[&str]) -> Plan {
+fn scene(text: &str, sets: &[&str]) -> Scene {
     let sets = sets.iter().map(ToString::to_string).collect();
-    Plan::of(&load_text("x.json", text, &Overrides { patches: vec![], sets }).unwrap().scene)
+    load_text("x.json", text, &Overrides { sets, ..Overrides::default() }).unwrap().scene
 }
 
-fn line<'a>(plan: &'a Plan, name: &str) -> &'a Item {
-    plan.items.iter().find(|item| item.name == name).unwrap()
+fn line(scene: &Scene, name: &str) -> Item {
+    plan(scene).into_iter().find(|item| item.name == name).unwrap()
 }
 
 #[test]
 fn every_decision_has_one_line_with_its_reason() {
-    let lines: Vec<String> = plan(TWO_BALLS, &["sphere.1.material.shader=texture"]).lines().collect();
+    let plan = plan(&scene(TWO_BALLS, &["sphere.1.material.shader=texture"]));
+    let line = |Item { name, needed, reason }: &Item| {
+        format!("{name}: {}: {reason}", if *needed { "needed" } else { "left out" })
+    };
+    let lines: Vec<String> = plan.iter().map(line).collect();
     let expected = "\
 structural springs: needed: cloth.enable_structural is true
 shearing springs: left out: cloth.enable_shearing is false
@@ -53,35 +57,37 @@ cube maps: left out: no shader reads one";
 
 #[test]
 fn phases_are_left_out_when_nothing_needs_them() {
-    let all = plan(TWO_BALLS, &[]);
+    let all = scene(TWO_BALLS, &[]);
     assert!(!line(&all, "collision with planes").needed && line(&all, "collision with spheres").needed);
-    assert_eq!((all.self_collision, all.stretch_limit), (SelfCollision::SameBox, Some(0.1)));
-    let outside = plan(TWO_BALLS, &["sim.contact=outside"]);
+    assert_eq!(
+        (all.needed_self_collision(), all.needed_stretch_limit()),
+        (SelfCollision::SameBox, Some(0.1))
+    );
+    let outside = scene(TWO_BALLS, &["sim.contact=outside"]);
     let kept = "the scene has 2 spheres, and sim.contact is outside: points are kept out";
     assert_eq!(line(&outside, "collision with spheres").reason, kept);
 
-    let thin = plan(TWO_BALLS, &["cloth.thickness=0"]);
-    assert_eq!(thin.self_collision, SelfCollision::Off);
+    let thin = scene(TWO_BALLS, &["cloth.thickness=0"]);
+    assert_eq!(thin.needed_self_collision(), SelfCollision::Off);
     assert_eq!(line(&thin, "self-collision").reason, "cloth.thickness is 0");
-    let off = plan(TWO_BALLS, &["sim.self_collision=off"]);
-    assert_eq!(off.self_collision, SelfCollision::Off);
+    let off = scene(TWO_BALLS, &["sim.self_collision=off"]);
+    assert_eq!(off.needed_self_collision(), SelfCollision::Off);
     assert_eq!(line(&off, "self-collision").reason, "sim.self_collision is off");
 
-    assert_eq!(plan(TWO_BALLS, &["sim.stretch_limit=null"]).stretch_limit, None);
-    let loose = plan(TWO_BALLS, &["cloth.enable_structural=false", "cloth.enable_bending=false"]);
-    assert_eq!(loose.stretch_limit, None);
+    assert_eq!(scene(TWO_BALLS, &["sim.stretch_limit=null"]).needed_stretch_limit(), None);
+    let loose = scene(TWO_BALLS, &["cloth.enable_structural=false", "cloth.enable_bending=false"]);
+    assert_eq!(loose.needed_stretch_limit(), None);
     assert_eq!(line(&loose, "stretch limit").reason, "there are no springs");
 }
 
 #[test]
 fn without_a_cloth_nothing_is_simulated() {
     let text = r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}}"#;
-    let plan = plan(text, &["sim.contact=outside"]);
-    assert_eq!((plan.self_collision, plan.stretch_limit), (SelfCollision::Off, None));
-    assert!(!line(&plan, "collision with planes").needed && !line(&plan, "collision with spheres").needed);
-    assert_eq!(line(&plan, "collision with spheres").reason, "the scene has no cloth");
-    assert_eq!(plan.objects.len(), 1);
-    assert_eq!(plan.objects[0].name, "sphere");
+    let scene = scene(text, &["sim.contact=outside"]);
+    assert_eq!((scene.needed_self_collision(), scene.needed_stretch_limit()), (SelfCollision::Off, None));
+    assert!(!line(&scene, "collision with planes").needed && !line(&scene, "collision with spheres").needed);
+    assert_eq!(line(&scene, "collision with spheres").reason, "the scene has no cloth");
+    assert_eq!(names(&scene), ["sphere"]);
 }
 
 #[test]
@@ -108,9 +114,12 @@ fn every_shader_reads_what_its_formula_names() {
 #[test]
 fn an_image_is_named_once() {
     let sets = ["material.shader=custom", "material.height_map=texture_1", "sphere.1.material.texture=wood"];
-    let plan = plan(TWO_BALLS, &sets);
-    assert_eq!(plan.textures, ["texture_1", "wood"]);
-    assert_eq!(plan.environments, ["cube"]);
-    assert_eq!(line(&plan, "texture texture_1").reason, "read by cloth, sphere.0, sphere.1");
-    assert_eq!(line(&plan, "texture wood").reason, "read by sphere.1");
+    let scene = scene(TWO_BALLS, &sets);
+    let images = Images::of(&scene);
+    assert_eq!(
+        (images.textures, images.environments),
+        (vec!["texture_1".into(), "wood".into()], vec!["cube".into()])
+    );
+    assert_eq!(line(&scene, "texture texture_1").reason, "read by cloth, sphere.0, sphere.1");
+    assert_eq!(line(&scene, "texture wood").reason, "read by sphere.1");
 }

@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use drape::math::StateHash;
 use drape::output::compare::{Difference, triptych};
 use drape::output::png::{self, Effort, Pixels};
-use drape_lab::page::{self, html};
+use drape_lab::page::{self, comparison::Row};
 
 /// Largest golden: files, and pixels along each side.
 const MAX_BYTES: usize = 20 * 1024;
@@ -63,7 +63,7 @@ impl Goldens {
     fn show(&self, name: &str, verdict: &str, pictures: [&Pixels; 2]) -> Result<PathBuf, String> {
         let [expected, actual] = pictures;
         save(&self.failures.join(format!("{name}.png")), &triptych(expected, actual), Effort::Fast)?;
-        let row = html::row(&html::Row { title: name, verdict, pictures }).map_err(|e| e.to_string())?;
+        let row = Row { title: name, verdict, pictures }.html().map_err(|e| e.to_string())?;
         let file = self.failures.join(format!("{name}.html"));
         fs::write(&file, (page::head("A golden that differs") + &row + page::END).as_bytes())
             .map_err(|e| e.to_string())?;

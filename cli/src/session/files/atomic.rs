@@ -1,7 +1,7 @@
-//! Files that are whole or absent: a reader sees the old file or the complete new one.
+//! Writes a file so that a reader sees either the old file or the complete new one.
 //!
-//! The bytes go to a temporary file in the target's folder, are flushed and synced, and the file
-//! then takes the target's name. `-` is standard output. Devices and pipes are written directly.
+//! The bytes go to a temporary file in the same folder, which is synced and then renamed. Standard output,
+//! devices and pipes are written directly.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, IsTerminal, Write};
@@ -12,11 +12,11 @@ use tempfile::NamedTempFile;
 use super::target::{Content, Target, failed, folder, target};
 use drape::error::{Error, Kind, Result};
 
-/// Writes `bytes` to `path` as one whole file.
+/// Writes `bytes` to `path` as one complete file.
 ///
 /// # Errors
 /// [`Kind::Io`] when the folder is missing or not writable or the disk is full; no new file is
-/// left and an old one is unchanged. [`Kind::Signal`] when the reader of a pipe has gone.
+/// left and an old one is unchanged. [`Kind::Signal`] when the reader of a pipe has closed it.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     match target(path)? {
         Target::Stdout => write_stdout(bytes),
@@ -38,7 +38,7 @@ pub(crate) fn write_stdout(bytes: &[u8]) -> Result<()> {
     written.map_err(|e| failed(Path::new("standard output"), &e))
 }
 
-/// Finds out before long work whether [`write()`] would fail at `path`. Leaves no trace.
+/// Checks, before long work, that [`write()`] can succeed at `path`. Changes nothing.
 ///
 /// # Errors
 /// [`Kind::Io`] when the folder is missing or not writable or `path` is a folder;
@@ -46,8 +46,8 @@ pub(crate) fn write_stdout(bytes: &[u8]) -> Result<()> {
 pub(crate) fn check_writable(path: &Path, content: Content) -> Result<()> {
     match target(path)? {
         Target::Stdout if content == Content::Binary && io::stdout().is_terminal() => {
-            Err(Error::new(Kind::Usage, "these bytes would garble the terminal")
-                .with_help("redirect standard output or name a file"))
+            Err(Error::new(Kind::Usage, "binary data is not written to a terminal")
+                .with_help("redirect standard output, or name a file instead of `-`"))
         }
         Target::Stdout | Target::Stream(_) => Ok(()),
         Target::File(file) => probe(&file).map_err(|e| failed(path, &e)),
@@ -74,7 +74,7 @@ pub(crate) fn persist(temporary: NamedTempFile, file: &Path) -> io::Result<()> {
     temporary.persist(file).map(drop).map_err(|e| e.error)
 }
 
-/// An empty temporary file next to `file`, with the permissions that `file` has or would get.
+/// An empty temporary file next to `file`, with the permissions that `file` has or would be created with.
 pub(crate) fn temporary_beside(file: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".drape-");

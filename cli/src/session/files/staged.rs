@@ -1,4 +1,4 @@
-//! A file that is written piece by piece and appears as a whole.
+//! A file that is written piece by piece and appears when it is complete.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,7 +10,7 @@ use super::atomic::{self, persist, temporary_beside};
 use super::target::{Target, failed, target};
 use drape::error::Result;
 
-/// A temporary file that takes its place in [`Staged::finish`], and is gone if that is never called.
+/// A temporary file that [`Staged::finish`] renames to its place; dropped before that, it is removed.
 #[derive(Debug)]
 pub(crate) struct Staged {
     path: PathBuf,
@@ -18,7 +18,7 @@ pub(crate) struct Staged {
 }
 
 impl Staged {
-    /// A file for `path`, which stays as it is until [`Staged::finish`].
+    /// A temporary file for `path`, whose present content stays until [`Staged::finish`].
     ///
     /// # Errors
     /// As [`atomic::write`].
@@ -34,22 +34,22 @@ impl Staged {
     /// The file to write to.
     ///
     /// # Errors
-    /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be opened once more.
+    /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be opened again.
     pub(crate) fn file(&self) -> Result<File> {
         self.temporary.reopen().map_err(|e| self.failed(&e))
     }
 
-    /// Where the temporary file is, for another program to write to.
+    /// The path of the temporary file, for another program to write to.
     pub(crate) fn temporary(&self) -> &Path {
         self.temporary.path()
     }
 
-    /// What a failed write to [`Staged::file`] is.
+    /// The error of a failed write to [`Staged::file`].
     pub(crate) fn failed(&self, cause: &io::Error) -> drape::error::Error {
         failed(&self.path, cause)
     }
 
-    /// Puts the file in its place.
+    /// Renames the file to its place.
     ///
     /// # Errors
     /// As [`atomic::write`].

@@ -6,25 +6,25 @@ use std::path::{Path, PathBuf};
 
 use drape::error::{Error, Kind, Result};
 
-/// The number of the signal for a pipe whose reader has gone.
+/// The number of the signal for a pipe whose reader has closed it.
 pub(crate) const SIGPIPE: u8 = 13;
 
-/// What a file holds, as far as a terminal cares.
+/// Whether a terminal may show the content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
-    /// Lines of text, welcome on a terminal.
+    /// Lines of text.
     Text,
-    /// Bytes that would garble a terminal.
+    /// Bytes that a terminal cannot show.
     Binary,
 }
 
-/// Where bytes go once links are followed.
+/// What a path stands for once links are followed.
 pub(crate) enum Target {
     /// Standard output.
     Stdout,
     /// A device or pipe, which cannot be replaced.
     Stream(PathBuf),
-    /// A regular file, there or not.
+    /// A regular file, which may not exist yet.
     File(PathBuf),
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn target(path: &Path) -> Result<Target> {
         }
         Ok(_) => Ok(Target::Stream(path.to_path_buf())),
         Err(_) if ends_with_separator(path) => Err(is_folder(path)),
-        // A chain of links that never ends is not reported as absent, so this recursion does.
+        // An endless chain of links is not reported as absent, so this recursion ends.
         Err(e) if e.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
             Ok(link) => target(&folder(path).join(link)),
             Err(_) => Ok(Target::File(path.to_path_buf())),
@@ -68,13 +68,13 @@ pub(crate) fn folder(path: &Path) -> &Path {
 
 fn is_folder(path: &Path) -> Error {
     Error::new(Kind::Io, format!("cannot write `{}`: it is a folder", path.display()))
-        .with_help("name a file in it")
+        .with_help("name a file in that folder")
 }
 
-/// The error of a failed write. A reader that has gone away counts as the signal for that.
+/// The error of a failed write. A closed pipe counts as the signal for it.
 pub(crate) fn failed(path: &Path, cause: &io::Error) -> Error {
     if cause.kind() == io::ErrorKind::BrokenPipe {
-        return Error::new(Kind::Signal(SIGPIPE), "the reader has gone");
+        return Error::new(Kind::Signal(SIGPIPE), "the reader has closed the pipe");
     }
     let error = Error::new(Kind::Io, format!("cannot write `{}`: {cause}", path.display()));
     if !is_stdout(path) && !folder(path).exists() {

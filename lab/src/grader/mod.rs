@@ -1,0 +1,21 @@
+//! The grader: compares the positions of another program with those of the method, and looks for the
+//! cause of a difference.
+//!
+//! It knows mistakes that programs make, runs each of them, and reports the one that comes nearest to the
+//! other program's positions.
+
+mod states;
+mod case;
+mod divergence;
+mod mistakes;
+mod numbers;
+mod trials;
+mod verdict;
+mod comparison;
+
+pub use case::{Case, Ours};
+pub use comparison::Comparison;
+pub use divergence::{Difference, start_of};
+pub use states::{State, read};
+pub use trials::Tried;
+pub use verdict::trials_at_most;
