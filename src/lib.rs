@@ -27,7 +27,7 @@
 //! # Ok::<(), drape::error::Error>(())
 //! ```
 //!
-//! Programs of one's own are closures: [`raster::DrawCall`] has an example.
+//! For programs of one's own, [`raster::DrawCall`] has an example.
 //!
 //! # The way of the data
 //! Modules are declared in the order in which data flows; each uses only those above it.
@@ -44,8 +44,9 @@
 //! | pictures that materials read | [`texture`], [`cubemap`], [`texture_source`] |
 //! | triangles with attributes | [`mesh`] |
 //! | orbit camera | [`camera`] |
-//! | vertex and fragment programs, beside their GLSL | [`shader`] |
+//! | the part of GLSL that programs use | [`glsl`] |
 //! | vertex stage → clip → set-up, bins → tiles → fragment stage | [`raster`] |
+//! | vertex and fragment programs, beside their GLSL | [`shader`] |
 //! | scene and positions → picture | [`render`] |
 //! | PNG, OBJ, raw numbers, comparison; whole files or none | [`output`] |
 //!
@@ -54,11 +55,12 @@
 //! of integers, and of [`math`], one pinned source for every other function. Nothing is fused or
 //! reordered; work is divided into chunks of fixed size whose results do not depend on each other.
 
+#![forbid(unsafe_code)]
+
 pub mod error;
 pub mod math;
 pub mod lanes;
 pub mod scene;
-mod dispatch;
 pub mod cloth;
 mod collision;
 pub mod integrator;
@@ -69,8 +71,9 @@ pub mod cubemap;
 pub mod texture_source;
 pub mod mesh;
 pub mod camera;
-pub mod shader;
+pub mod glsl;
 pub mod raster;
+pub mod shader;
 pub mod render;
 pub mod output;
 

@@ -46,7 +46,7 @@ impl Level {
             Self::Avx2,
             Self::Avx512,
         ];
-        all.into_iter().filter(|&level| Vectors::up_to(level as u8).level() == level).collect()
+        all.into_iter().filter(|&level| Token::up_to(level as u8).level() == level).collect()
     }
 
     /// From now on, uses no wider level than this one in the whole process. No result depends on it;
@@ -58,7 +58,7 @@ impl Level {
 
 /// Proof that the CPU has a level.
 #[derive(Clone, Copy)]
-pub(crate) enum Vectors {
+pub(crate) enum Token {
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
     Narrow(Narrow),
@@ -74,10 +74,9 @@ pub(crate) enum Narrow {
     Scalar(Fallback),
 }
 
-impl Vectors {
+impl Token {
     /// The widest level that the CPU has and [`Level::limit`] allows.
     #[inline]
-    #[allow(dead_code, reason = "loops over explicit vectors come next")]
     pub(crate) fn widest() -> Self {
         Self::up_to(LIMIT.load(Ordering::Relaxed))
     }
@@ -146,17 +145,16 @@ fn baseline() -> Baseline {
     baseline
 }
 
-#[allow(unused_macros, reason = "loops over explicit vectors come next")]
 /// `dispatch!(simd => f(simd, …))` evaluates `f` with the widest vectors that the CPU has. `simd` is
 /// the token from which vectors are made; its type, and so the vectors' width, differs from copy to copy.
 macro_rules! dispatch {
     ($simd:pat => $work:expr) => {
-        match $crate::lanes::level::Vectors::widest() {
+        match $crate::lanes::level::Token::widest() {
             #[cfg(target_arch = "x86_64")]
-            $crate::lanes::level::Vectors::Avx512(token) => {
+            $crate::lanes::level::Token::Avx512(token) => {
                 $crate::lanes::level::with_token!(token, $simd => $work)
             }
-            $crate::lanes::level::Vectors::Narrow(narrow) => {
+            $crate::lanes::level::Token::Narrow(narrow) => {
                 $crate::lanes::level::dispatch_narrow!(narrow, $simd => $work)
             }
         }
@@ -202,9 +200,23 @@ macro_rules! with_token {
     }};
 }
 
-#[allow(unused_imports, reason = "loops over explicit vectors come next")]
-pub(crate) use dispatch;
-pub(crate) use {dispatch_narrow, dispatch_plain, with_token};
+pub(crate) use {dispatch, dispatch_narrow, dispatch_plain, with_token};
+
+#[cfg(test)]
+impl Level {
+    /// Calls `f` with each level that the CPU has, widest first, while nothing wider is used. One caller
+    /// after the other.
+    pub(crate) fn for_each(mut f: impl FnMut(Self)) {
+        static ALONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+        let _alone = ALONE.lock();
+        let widest = LIMIT.load(Ordering::Relaxed);
+        for level in Self::available().into_iter().rev() {
+            level.limit();
+            f(level);
+        }
+        LIMIT.store(widest, Ordering::Relaxed);
+    }
+}
 
 #[cfg(test)]
 mod tests {
@@ -215,9 +227,9 @@ mod tests {
         let available = Level::available();
         assert_eq!(available[..2], [Level::Scalar, Level::Baseline]);
         for &level in &available {
-            assert_eq!(Vectors::up_to(level as u8).level(), level);
+            assert_eq!(Token::up_to(level as u8).level(), level);
         }
-        let widest = Vectors::up_to(u8::MAX).level();
+        let widest = Token::up_to(u8::MAX).level();
         assert_eq!(Some(&widest), available.last());
     }
 

@@ -1,55 +1,68 @@
-//! The number type of the fragment stage: one number, or eight side by side.
+//! The number type of the fragment stage: one number, or several side by side.
 //!
-//! A fragment program is written once over [`Lane`]. With `Wide<f32>` it shades eight fragments
-//! at a time, with `f32` one (for tests), with `f64` it is its own reference for the error study.
-//! Everything is plain loops over arrays: the compiler turns them into whatever vector
-//! instructions the machine has, and since it neither fuses nor reorders, the bits are the same.
+//! A fragment program is written once over [`Lane`]. It is run with the widest vectors that the CPU has,
+//! several of them side by side, so that roots and divisions of one overlap with those of the next; with
+//! `f32` one fragment at a time (for tests); and with [`F64`] as its own reference for the error study.
+//! Only operations that are rounded exactly, or not at all, are used: the bits are the same in every lane.
 
 pub mod level;
+mod pair;
+mod scalar;
+#[cfg(test)]
+mod tests;
+mod vector;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Fragments that a [`Wide`] holds.
-pub const WIDTH: usize = 8;
+use fearless_simd::Simd;
 
-/// A number of the fragment stage: + − × ÷, and what follows, all exactly rounded.
+pub use pair::Pair;
+pub use scalar::F64;
+
+/// A number of the fragment stage: + − × ÷, and what follows, all exactly rounded. An operation with a
+/// plain number is that with the number in every lane.
 pub trait Lane:
     Copy
     + Send
     + Sync
+    + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
-    + Neg<Output = Self>
+    + Add<f32, Output = Self>
+    + Sub<f32, Output = Self>
+    + Mul<f32, Output = Self>
 {
-    /// The same lanes in binary64, in which positions in the window are computed.
-    type Double: Lane;
-    /// How many fragments one value holds.
-    const LANES: usize;
+    /// What new numbers are made from: proof that the CPU has the vectors.
+    type Token: Copy + Send + Sync;
+    /// The vectors that a value consists of.
+    type Part: Part<Token = Self::Token>;
+    /// How many parts a value has: a power of two, at most [`MAX_PARTS`].
+    const PARTS: usize;
 
     /// The same number in every lane.
-    fn splat(value: f32) -> Self;
-    /// Lane i is `f(i)`.
-    fn from_fn(f: impl FnMut(usize) -> f32) -> Self;
-    /// The same binary64 number in every lane.
-    fn splat_double(value: f64) -> Self::Double;
-    /// Rounds binary64 lanes to this type.
-    fn narrow(double: Self::Double) -> Self;
-    /// Lane `index`, widened to binary64 (exact).
-    fn lane(self, index: usize) -> f64;
-    /// Writes the lanes, rounded to f32, to the first [`Lane::LANES`] places of `out`.
-    fn store(self, out: &mut [f32]);
+    fn splat(token: Self::Token, value: f32) -> Self;
+    /// What this value was made from.
+    fn token(self) -> Self::Token;
+    /// A value of its parts.
+    fn from_parts(part: impl FnMut(usize) -> Self::Part) -> Self;
+    /// Hands each part to `f` with its index.
+    fn each_part(self, f: impl FnMut(usize, Self::Part));
+    /// Three values from three values, each part by `f` from the same parts.
+    fn map_parts(values: [Self; 3], f: impl FnMut([Self::Part; 3]) -> [Self::Part; 3]) -> [Self; 3];
     /// Square root.
     fn sqrt(self) -> Self;
     /// Largest whole number that is not above.
     fn floor(self) -> Self;
-    /// Lanes that are whole numbers as integers; too large ones saturate, NaN and absent lanes are 0.
-    fn to_whole(self) -> Wide<i32>;
     /// `then` where `self < other`, else `otherwise` (also where either is NaN).
     fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self;
-    /// `other` in the lanes that `mask` names, else `self`.
-    fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self;
+
+    /// The same number in every lane of a value like this one.
+    #[inline(always)]
+    fn all(self, value: f32) -> Self {
+        Self::splat(self.token(), value)
+    }
 
     /// The larger of two; `other` where either is NaN.
     #[inline(always)]
@@ -66,193 +79,110 @@ pub trait Lane:
     /// The value without its sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        self.select_less(Self::splat(0.0), -self, self)
+        self.select_less(self.all(0.0), -self, self)
     }
 }
 
-/// Eight numbers side by side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
-pub struct Wide<T>(pub [T; WIDTH]);
+/// Most parts of a value.
+pub const MAX_PARTS: usize = 4;
 
-impl<T: Copy> Wide<T> {
-    /// `f` of every lane. A loop, because the standard library's `map` over arrays is not sure to be
-    /// compiled into the caller's vector instructions.
-    #[inline(always)]
-    pub(crate) fn each<U: Copy + Default>(self, f: impl Fn(T) -> U) -> Wide<U> {
-        let mut result = Wide([U::default(); WIDTH]);
-        for (result, value) in result.0.iter_mut().zip(self.0) {
-            *result = f(value);
-        }
-        result
+/// Most fragments of a part.
+pub const MAX_WIDTH: usize = 16;
+
+/// Most fragments of a value: lists of fragments are filled up to a multiple of it.
+pub const MAX_LANES: usize = 32;
+
+/// One vector, or one number: what is interpolated and looked up at a time.
+pub trait Part: Lane<Part = Self> {
+    /// How many fragments it holds: a power of two, at most [`MAX_WIDTH`].
+    const WIDTH: usize;
+    /// The same lanes in binary64, in which positions in the window are computed.
+    type Double: Copy + Add<Output = Self::Double> + Sub<Output = Self::Double> + Mul<Output = Self::Double>;
+    /// The same lanes as whole numbers.
+    type Whole: Whole;
+
+    /// Lane i is `f(i)`.
+    fn from_fn(token: Self::Token, f: impl FnMut(usize) -> f32) -> Self;
+    /// Lane `index`, widened to binary64 (exact).
+    fn lane(self, index: usize) -> f64;
+    /// Writes the lanes, rounded to f32, to the first [`Part::WIDTH`] elements of `out`.
+    fn store(self, out: &mut [f32]);
+    /// The same binary64 number in every lane.
+    fn double(token: Self::Token, value: f64) -> Self::Double;
+    /// Lane i of a binary64 value is `f(i)`.
+    fn double_from_fn(token: Self::Token, f: impl FnMut(usize) -> f64) -> Self::Double;
+    /// Rounds binary64 lanes to this type.
+    fn narrow(double: Self::Double) -> Self;
+    /// Lanes that are whole numbers as integers; too large ones saturate, NaN is 0.
+    fn to_whole(self) -> Self::Whole;
+    /// `other` in the lanes where `keys` is `key`, else `self`. There are [`Part::WIDTH`] keys.
+    fn replace(self, keys: &[u32], key: u32, other: Self) -> Self;
+    /// Red, green and blue of a texel in each lane: lane i has that of `texel(i)`.
+    fn transpose(token: Self::Token, texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3];
+}
+
+/// Whole numbers side by side.
+pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, Output = Self> {
+    /// The same number in every lane of a value like this one.
+    fn all(self, value: i32) -> Self;
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two.
+    fn max(self, other: Self) -> Self;
+    /// `then` where `self == other`, else `otherwise`.
+    fn select_equal(self, other: Self, then: Self, otherwise: Self) -> Self;
+    /// Whether all lanes are at least 0 and less than `end`.
+    fn within(self, end: i32) -> bool;
+    /// `f` of every lane.
+    fn each(self, f: impl FnMut(i32) -> i32) -> Self;
+    /// One lane.
+    fn lane(self, index: usize) -> i32;
+}
+
+/// The lanes in which fragments are shaded with the vectors of a level.
+pub trait FragmentLanes: Simd {
+    /// Values of the fragment stage.
+    type Lanes: Lane<Token = Self>;
+    /// Whether `max` and `min` of a vector are those of a comparison and a selection, also for zeros of
+    /// either sign and NaN. They are on x86, where one instruction does what two do elsewhere.
+    const ORDERED_MAX: bool;
+}
+
+#[cfg(target_arch = "x86_64")]
+mod widths {
+    use fearless_simd::{Avx2, Avx512, Sse2, f32x4, f32x8, f32x16};
+
+    use super::{FragmentLanes, Pair};
+
+    impl FragmentLanes for Avx512 {
+        type Lanes = Pair<f32x16<Self>>;
+        const ORDERED_MAX: bool = true;
+    }
+
+    impl FragmentLanes for Avx2 {
+        type Lanes = Pair<Pair<f32x8<Self>>>;
+        const ORDERED_MAX: bool = true;
+    }
+
+    impl FragmentLanes for Sse2 {
+        type Lanes = Pair<f32x4<Self>>;
+        const ORDERED_MAX: bool = true;
     }
 }
 
-macro_rules! operator {
-    ($trait:ident, $method:ident, $op:tt) => {
-        impl<T: Copy + $trait<Output = T>> $trait for Wide<T> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(mut self, other: Self) -> Self {
-                for (a, b) in self.0.iter_mut().zip(other.0) {
-                    *a = *a $op b;
-                }
-                self
-            }
-        }
-    };
-}
-operator!(Add, add, +);
-operator!(Sub, sub, -);
-operator!(Mul, mul, *);
-operator!(Div, div, /);
-
-impl<T: Copy + Default + Neg<Output = T>> Neg for Wide<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.each(|a| -a)
-    }
+#[cfg(target_arch = "aarch64")]
+impl FragmentLanes for fearless_simd::Neon {
+    type Lanes = Pair<Pair<fearless_simd::f32x4<Self>>>;
+    const ORDERED_MAX: bool = false;
 }
 
-macro_rules! lanes {
-    ($scalar:ty) => {
-        impl Lane for $scalar {
-            type Double = f64;
-            const LANES: usize = 1;
-
-            #[inline(always)]
-            fn splat(value: f32) -> Self {
-                value.into()
-            }
-            #[inline(always)]
-            fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
-                f(0).into()
-            }
-            #[inline(always)]
-            fn splat_double(value: f64) -> f64 {
-                value
-            }
-            #[inline(always)]
-            fn narrow(double: f64) -> Self {
-                double as $scalar
-            }
-            #[inline(always)]
-            fn lane(self, _index: usize) -> f64 {
-                self.into()
-            }
-            #[inline(always)]
-            fn store(self, out: &mut [f32]) {
-                out[0] = self as f32;
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                <$scalar>::sqrt(self)
-            }
-            #[inline(always)]
-            fn floor(self) -> Self {
-                <$scalar>::floor(self)
-            }
-            #[inline(always)]
-            fn to_whole(self) -> Wide<i32> {
-                let mut whole = Wide([0; WIDTH]);
-                whole.0[0] = self as i32;
-                whole
-            }
-            #[inline(always)]
-            fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
-                if self < other { then } else { otherwise }
-            }
-            #[inline(always)]
-            fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self {
-                if mask[0] { other } else { self }
-            }
-        }
-
-        impl Lane for Wide<$scalar> {
-            type Double = Wide<f64>;
-            const LANES: usize = WIDTH;
-
-            #[inline(always)]
-            fn splat(value: f32) -> Self {
-                Self([value.into(); WIDTH])
-            }
-            #[inline(always)]
-            fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
-                let mut result = Self([0.0; WIDTH]);
-                for (i, result) in result.0.iter_mut().enumerate() {
-                    *result = f(i).into();
-                }
-                result
-            }
-            #[inline(always)]
-            fn splat_double(value: f64) -> Wide<f64> {
-                Wide([value; WIDTH])
-            }
-            #[inline(always)]
-            fn narrow(double: Wide<f64>) -> Self {
-                double.each(|d| d as $scalar)
-            }
-            #[inline(always)]
-            fn lane(self, index: usize) -> f64 {
-                self.0[index].into()
-            }
-            #[inline(always)]
-            fn store(self, out: &mut [f32]) {
-                for (out, value) in out.iter_mut().zip(self.0) {
-                    *out = value as f32;
-                }
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                self.each(<$scalar>::sqrt)
-            }
-            #[inline(always)]
-            fn floor(self) -> Self {
-                self.each(<$scalar>::floor)
-            }
-            #[inline(always)]
-            fn to_whole(self) -> Wide<i32> {
-                let near = |value: $scalar| value.abs() < NEAR.into();
-                if self.0.iter().fold(true, |all, &value| all & near(value)) {
-                    return self.each(|value| {
-                        (value as f32 + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits()).cast_signed()
-                    });
-                }
-                self.each(|value| value as i32)
-            }
-            #[inline(always)]
-            fn select_less(self, other: Self, then: Self, otherwise: Self) -> Self {
-                let mut result = otherwise;
-                for i in 0..WIDTH {
-                    result.0[i] = if self.0[i] < other.0[i] { then.0[i] } else { result.0[i] };
-                }
-                result
-            }
-            #[inline(always)]
-            fn replace(self, mask: &[bool; WIDTH], other: Self) -> Self {
-                let mut result = self;
-                for i in 0..WIDTH {
-                    result.0[i] = if mask[i] { other.0[i] } else { result.0[i] };
-                }
-                result
-            }
-        }
-    };
+#[cfg(target_feature = "simd128")]
+impl FragmentLanes for fearless_simd::WasmSimd128 {
+    type Lanes = Pair<fearless_simd::f32x4<Self>>;
+    const ORDERED_MAX: bool = false;
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "narrow is the one place that rounds to f32, to_whole saturates"
-)]
-mod implementations {
-    use super::{Lane, WIDTH, Wide};
-
-    /// A number to which a whole number between -`NEAR` and `NEAR` is added exactly: the sum's last bits
-    /// are its bits. A cast does more, and is not vectorised.
-    const WHOLE: f32 = 12_582_912.0;
-    const NEAR: f32 = 4_194_304.0;
-
-    lanes!(f32);
-    lanes!(f64);
+impl FragmentLanes for fearless_simd::Fallback {
+    type Lanes = fearless_simd::f32x4<Self>;
+    const ORDERED_MAX: bool = false;
 }

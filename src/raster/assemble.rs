@@ -1,20 +1,15 @@
 //! Primitive assembly: clips and sets up primitives in chunks of fixed size, each on one thread.
 
+use rayon::prelude::*;
+
 use super::{
     bin::Bins,
     clip::{ClipVertex, FAR, clip_polygon, clip_segment},
+    handle::CHUNK,
+    primitives::Primitives,
     setup::{Corner, Dropped, Line, Triangle, Viewport},
     vertex::VertexBuffer,
 };
-
-/// Primitives of a mesh per chunk. Fixed, so that the work is cut alike for any number of threads.
-pub(super) const CHUNK: usize = 2048;
-
-/// Primitives that a chunk can hold after clipping: a triangle becomes at most 7.
-const CHUNK_BITS: u32 = 14;
-
-/// The place of a primitive among all chunks, plus one: 0 is nothing.
-pub(super) type Handle = u32;
 
 /// A chunk of a draw call's primitives, ready for the tiles.
 #[derive(Clone, Debug, Default)]
@@ -41,19 +36,29 @@ pub(super) struct Counts {
     pub(super) drawn: u64,
 }
 
-/// The handle of primitive `index` of chunk `chunk`.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the largest scene has fewer than 2^18 chunks (scene::checks)"
-)]
-pub(super) fn handle(chunk: usize, index: u32) -> Handle {
-    ((chunk as u32) << CHUNK_BITS) + index + 1
-}
-
-/// The chunk and index of a handle other than 0.
-pub(super) fn place(handle: Handle) -> (usize, usize) {
-    let place = handle - 1;
-    ((place >> CHUNK_BITS) as usize, (place & ((1 << CHUNK_BITS) - 1)) as usize)
+/// Clips, sets up and bins the primitives of all calls, chunk by chunk.
+pub(super) fn assemble(
+    calls: &[Primitives<'_>],
+    buffers: &[VertexBuffer],
+    viewport: &Viewport,
+    chunks: &mut Vec<Chunk>,
+) {
+    let firsts = |(call, primitives): (usize, &Primitives<'_>)| {
+        (0..primitives.len()).step_by(CHUNK).map(move |first| (call, first))
+    };
+    let starts: Vec<(usize, usize)> = calls.iter().enumerate().flat_map(firsts).collect();
+    chunks.resize_with(starts.len(), Chunk::default);
+    chunks.par_iter_mut().zip(starts).for_each(|(chunk, (call, first))| {
+        let last = calls[call].len().min(first + CHUNK);
+        match calls[call] {
+            Primitives::Triangles(all) => {
+                chunk.set_triangles((call, first), &all[first..last], &buffers[call], viewport);
+            }
+            Primitives::Lines(all) => {
+                chunk.set_lines((call, first), &all[first..last], &buffers[call], viewport);
+            }
+        }
+    });
 }
 
 impl Chunk {
@@ -186,7 +191,7 @@ impl Chunk {
         }
     }
 
-    /// The number of a new vertex: `vertex` at its place on the snapping grid.
+    /// The number of a new vertex: `vertex` moved onto the snapping grid.
     fn add_on_grid(&mut self, vertex: u32, buffer: &VertexBuffer, viewport: &Viewport) -> u32 {
         let (varyings, first) = self.varyings_at(vertex, buffer, buffer.stride);
         let copy = varyings[first..first + buffer.stride].to_vec();

@@ -1,6 +1,6 @@
 //! Binning: which primitives of a chunk may touch a tile, in submission order.
 
-use super::{framebuffer::TILE, setup::Bounds};
+use super::{setup::Bounds, tiling::tile_of};
 
 /// The primitives of a chunk by tile. Only the rectangle of tiles that the chunk touches is kept.
 #[derive(Clone, Debug, Default)]
@@ -74,15 +74,10 @@ impl Bins {
     }
 }
 
-/// Column and row of the tile that a pixel lies in.
-fn tile_of(pixel: [u16; 2]) -> [usize; 2] {
-    [usize::from(pixel[0]) / TILE, usize::from(pixel[1]) / TILE]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::splitmix64;
+    use crate::{math::splitmix64, raster::tiling::TILE};
 
     /// Bounds somewhere in a picture of 1000 × 1000 pixels, from a pixel to half the picture.
     fn any_bounds(i: u64) -> Bounds {

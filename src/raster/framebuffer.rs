@@ -2,14 +2,11 @@
 //! that each tile is one disjoint piece of memory for one thread.
 
 use super::{
-    assemble::{Chunk, Handle},
+    assemble::Chunk,
+    handle::Handle,
+    tiling::{TILE, TILE_PIXELS},
     vertex::VertexBuffer,
 };
-
-/// Width and height of a tile in pixels.
-pub(super) const TILE: usize = 64;
-/// Pixels of a tile.
-pub(super) const TILE_PIXELS: usize = TILE * TILE;
 
 /// A picture in the making, with depth and visibility per sample.
 #[derive(Clone, Debug)]
@@ -47,7 +44,7 @@ pub(super) struct Tile {
 
 impl Tile {
     /// Column and row of the tile in the picture.
-    pub(super) fn place(&self) -> [usize; 2] {
+    pub(super) fn position(&self) -> [usize; 2] {
         [self.left / TILE, self.top / TILE]
     }
 

@@ -6,10 +6,11 @@
 //! is exact integer arithmetic on ends in 1/256 pixel.
 
 use super::{
-    assemble::Handle,
-    framebuffer::{TILE, Tile},
-    setup::{Line, SUBPIXELS, Viewport},
-    tile::TileBounds,
+    framebuffer::Tile,
+    handle::Handle,
+    setup::{Line, Viewport},
+    tiling::{SUBPIXELS, TILE, TILE_PIXELS},
+    triangle::TileBounds,
 };
 
 /// Centre of pixel 0, in 1/256 pixel.
@@ -56,7 +57,7 @@ pub(super) fn draw_line(
 /// Writes one fragment to all samples of a pixel, where it is nearer.
 fn plot(tile: &mut Tile, x: usize, y: usize, z: f32, handle: Handle, samples: usize) {
     for sample in 0..samples {
-        let at = sample * TILE * TILE + y * TILE + x;
+        let at = sample * TILE_PIXELS + y * TILE + x;
         if z < tile.depth[at] {
             (tile.depth[at], tile.visible[at]) = (z, handle);
         }

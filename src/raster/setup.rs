@@ -1,12 +1,9 @@
 //! Set-up: from clip space to the window, snapped for coverage, unsnapped for everything else.
 
-use super::samples;
-
-/// Sub-pixel positions per pixel: coverage is decided on a grid of 1/256 pixel.
-pub(super) const SUBPIXELS: i32 = 256;
-
-/// Largest snapped coordinate: 2^23/256 pixels. With it every edge value stays below 2^50.
-const SNAPPED_LIMIT: f32 = 8_388_608.0;
+use super::{
+    samples,
+    tiling::{SNAPPED_LIMIT, SUBPIXELS},
+};
 
 /// The part of the window that pictures use.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +11,7 @@ pub(super) struct Viewport {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) samples: usize,
-    /// Lowest and highest place of a sample in its pixel along x and y, in 1/256 pixel.
+    /// Lowest and highest position of a sample in its pixel along x and y, in 1/256 pixel.
     spread: [[i32; 2]; 2],
 }
 
@@ -31,7 +28,7 @@ pub(super) struct WindowVertex {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Corner {
     pub(super) window: WindowVertex,
-    /// The place in 1/256 pixel, x right, y down; absent if it is NaN, infinite or beyond the grid.
+    /// The position in 1/256 pixel, x right, y down; absent if it is NaN, infinite or beyond the grid.
     pub(super) snapped: Option<[i32; 2]>,
 }
 
@@ -39,7 +36,7 @@ pub(super) struct Corner {
 /// with y down.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
-    /// Where each corner stands (see `assemble::Chunk::corner`).
+    /// The number of each corner (see `assemble::Chunk::corner`).
     pub(super) vertices: [u32; 3],
     /// Number of the triangle in its mesh.
     pub(super) source: u32,
@@ -99,8 +96,13 @@ impl Viewport {
     fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowVertex {
         let r = 1.0 / w;
         let half = |extent: usize| extent as f64 / 2.0;
-        let place = |ndc: f32, extent: usize| (f64::from(ndc) * half(extent) + half(extent)) as f32;
-        WindowVertex { x: place(x * r, self.width), y: place(y * r, self.height), z: z * r * 0.5 + 0.5, r }
+        let to_window = |ndc: f32, extent: usize| (f64::from(ndc) * half(extent) + half(extent)) as f32;
+        WindowVertex {
+            x: to_window(x * r, self.width),
+            y: to_window(y * r, self.height),
+            z: z * r * 0.5 + 0.5,
+            r,
+        }
     }
 
     /// The position on the snapping grid, rounded half to even; y turned down.
@@ -111,7 +113,8 @@ impl Viewport {
         let (x, y) = (grid(v.x), grid(v.y));
         #[expect(clippy::cast_possible_truncation, reason = "only used where it is within the limit")]
         let snapped = || [x as i32, self.flip(y as i32)];
-        (finite && x.abs() <= SNAPPED_LIMIT && y.abs() <= SNAPPED_LIMIT).then(snapped)
+        let limit = SNAPPED_LIMIT as f32;
+        (finite && x.abs() <= limit && y.abs() <= limit).then(snapped)
     }
 
     /// Turns a snapped y up into y down, and back.
@@ -120,7 +123,7 @@ impl Viewport {
         self.height as i32 * SUBPIXELS - y
     }
 
-    /// A corner moved to its place on the snapping grid.
+    /// A corner moved to its position on the snapping grid.
     pub(super) fn on_grid(&self, corner: Corner) -> Corner {
         let Some([x, y]) = corner.snapped else { return corner };
         let [x, y] = [x, self.flip(y)].map(|c| c as f32 / SUBPIXELS as f32);
@@ -136,7 +139,7 @@ impl Viewport {
         vertices: [u32; 3],
         source: u32,
     ) -> Result<Triangle, Dropped> {
-        let snapped = [placed(a)?, placed(b)?, placed(c)?];
+        let snapped = [snapped(a)?, snapped(b)?, snapped(c)?];
         let area = area(snapped);
         if area == 0 {
             return Err(Dropped::Degenerate);
@@ -152,7 +155,7 @@ impl Viewport {
 
     /// Sets up a line from its ends.
     pub(super) fn line(&self, ends: [Corner; 2], source: u32) -> Result<Line, Dropped> {
-        let snapped = [placed(ends[0])?, placed(ends[1])?];
+        let snapped = [snapped(ends[0])?, snapped(ends[1])?];
         let [x, y] = [0, 1].map(|axis| {
             let [a, b] = snapped.map(|corner| corner[axis].div_euclid(SUBPIXELS));
             [a.min(b) - 1, a.max(b) + 1]
@@ -189,8 +192,8 @@ impl Viewport {
     }
 }
 
-/// The place of a corner on the snapping grid.
-fn placed(corner: Corner) -> Result<[i32; 2], Dropped> {
+/// The position of a corner on the snapping grid.
+fn snapped(corner: Corner) -> Result<[i32; 2], Dropped> {
     corner.snapped.ok_or(Dropped::NonFinite)
 }
 

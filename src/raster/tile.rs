@@ -1,229 +1,184 @@
-//! Coverage and depth of a triangle within one tile.
+//! One tile from clear to stored colour: visibility of all primitives, then shading of what is seen.
 //!
-//! An edge function is kept as three integers per tile: its value at the tile's first pixel and
-//! its steps per column and row. Positions are in 1/256 pixel and pixels are 256 of them apart, so
-//! E(i, j) = 256·(A·i + B·j) + c, and E ≥ 0 iff A·i + B·j + ⌊c/256⌋ ≥ 0: exact, in 32 bits.
-//!
-//! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
-//! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
+//! A primitive is shaded once per pixel, at the pixel's centre, however many samples it has there.
 
-use std::hint::black_box;
+use std::{mem::take, ops::Range};
 
 use super::{
-    assemble::Handle,
-    framebuffer::{TILE, TILE_PIXELS, Tile},
-    samples,
-    setup::{Bounds, Corner, SUBPIXELS, Viewport},
+    assemble::Chunk,
+    draw_call::DrawCall,
+    fragments::{FragmentList, in_blocks},
+    framebuffer::Tile,
+    handle::{Handle, pack, unpack},
+    interpolate::ShadeInput,
+    line::draw_line,
+    resolve::{self, Pixels},
+    setup::Viewport,
+    stats::TileStats,
+    tiling::TILE_PIXELS,
+    timing::Clock,
+    triangle::{TileBounds, draw_triangle},
+    vertex::VertexBuffer,
 };
-use crate::lanes::{Lane, WIDTH, Wide};
+use crate::lanes::{
+    FragmentLanes,
+    level::{dispatch, dispatch_plain},
+};
 
-/// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
-#[derive(Clone, Copy, Debug, Default)]
-struct Edge {
-    at: i32,
-    column: i32,
-    row: i32,
+/// What a tile needs to know to be drawn.
+pub(super) struct TileScene<'a> {
+    pub(super) calls: &'a [DrawCall<'a>],
+    pub(super) buffers: &'a [VertexBuffer],
+    pub(super) chunks: &'a [Chunk],
+    pub(super) viewport: Viewport,
+    pub(super) background: [f32; 3],
+    pub(super) ids: bool,
 }
 
-impl Edge {
-    /// The value at a pixel.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "x and y are below 64")]
-    fn value(&self, x: usize, y: usize) -> i32 {
-        self.at + self.column * x as i32 + self.row * y as i32
-    }
-
-    /// What the value grows by from the first of eight pixels of a row to each of them.
-    #[inline(always)]
-    fn steps(&self) -> [i32; WIDTH] {
-        // Factors that the compiler sees it would shift or leave out, and then not vectorise.
-        let mut steps = black_box([0, 1, 2, 3, 4, 5, 6, 7]);
-        for step in &mut steps {
-            *step *= self.column;
-        }
-        steps
-    }
+/// Memory that a thread uses for one tile after the other.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    visible: Vec<Handle>,
+    list: FragmentList,
 }
 
-/// Window depth as a plane: z = `at` + x·`column` + y·`row` at window position (x, y), y up.
-#[derive(Clone, Copy, Debug)]
-struct DepthPlane {
-    origin: [f64; 2],
-    at: f64,
-    column: f64,
-    row: f64,
-}
-
-/// The part of a tile that a primitive may touch: first and last column and row, inclusive.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TileBounds {
-    pub(super) x: [usize; 2],
-    pub(super) y: [usize; 2],
-}
-
-impl TileBounds {
-    /// Cuts picture bounds to a tile that they touch.
-    pub(super) fn of(bounds: Bounds, tile: &Tile) -> Self {
-        let within = |[first, last]: [u16; 2], start: usize| {
-            [usize::from(first).max(start) - start, (usize::from(last) - start).min(TILE - 1)]
-        };
-        Self { x: within(bounds.x, tile.left), y: within(bounds.y, tile.top) }
-    }
-}
-
-/// Draws a triangle into a tile's depth and visibility.
-#[inline(always)]
-pub(super) fn draw_triangle(
+/// Draws one tile. What is in `scratch` does not matter.
+pub(super) fn draw_tile(
     tile: &mut Tile,
-    corners: &[Corner; 3],
-    scale: f64,
-    bounds: TileBounds,
-    handle: Handle,
-    viewport: &Viewport,
-) {
-    let depth = DepthPlane::of(corners, scale);
-    for (sample, position) in samples::positions(viewport.samples).iter().enumerate() {
-        let offset = [position[0] * (SUBPIXELS / 16), position[1] * (SUBPIXELS / 16)];
-        if let Some(edges) = tile_edges(corners, tile, offset) {
-            draw_sample(tile, sample * TILE_PIXELS, &edges, &depth, offset, bounds, handle, viewport.height);
+    scene: &TileScene<'_>,
+    scratch: &mut Scratch,
+    clock: &impl Clock,
+) -> TileStats {
+    let started = clock.now();
+    let at = tile.position();
+    let touching = (0..scene.chunks.len()).filter(|&chunk| !scene.chunks[chunk].bins.in_tile(at).is_empty());
+    let chunks: Vec<usize> = touching.collect();
+    let background = resolve::background(scene.background);
+    tile.ids.clear();
+    if chunks.is_empty() {
+        tile.clear(background);
+        tile.ids.resize(if scene.ids { TILE_PIXELS } else { 0 }, 0);
+        return TileStats { raster: clock.now() - started, ..TileStats::default() };
+    }
+
+    // Visibility buffer: the nearest primitive of every sample.
+    tile.begin(take(&mut scratch.visible));
+    dispatch!(simd => find_visible(simd, tile, &chunks, scene));
+    if tile.visible.contains(&0) {
+        tile.color.fill(background);
+    }
+    let seen = clock.now();
+
+    // Shading: the fragment program of every primitive that is seen, and resolve.
+    let (fragments, covered) = shade_tile(tile, &chunks, scene, &mut scratch.list);
+    if scene.ids {
+        tile.ids.extend(tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)));
+    }
+    scratch.visible = take(&mut tile.visible);
+    TileStats { fragments, covered, raster: seen - started, shading: clock.now() - seen }
+}
+
+/// Depth and visibility of every primitive that touches the tile, in submission order.
+#[inline(always)]
+fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], scene: &TileScene<'_>) {
+    let viewport = &scene.viewport;
+    for &number in chunks {
+        let chunk = &scene.chunks[number];
+        let vertices = &scene.buffers[chunk.call];
+        for &primitive in chunk.bins.in_tile(tile.position()) {
+            let handle = pack(number, primitive);
+            if let Some(triangle) = chunk.triangles.get(primitive as usize) {
+                let bounds = TileBounds::of(triangle.bounds, tile);
+                let [a, b, c] = triangle.vertices;
+                let corners =
+                    [chunk.corner(a, vertices), chunk.corner(b, vertices), chunk.corner(c, vertices)];
+                draw_triangle(simd, tile, &corners, triangle.scale, bounds, handle, viewport);
+            } else if let Some(line) = chunk.lines.get(primitive as usize) {
+                let bounds = TileBounds::of(line.bounds, tile);
+                draw_line(tile, line, bounds, handle, viewport);
+            }
         }
     }
 }
 
-/// One sample of every pixel in `bounds`, eight pixels of a row at a time.
-#[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "the inner loop's state, each a plain number or pair")]
-fn draw_sample(
+/// Colours what is seen of the chunks that touch the tile; how many fragments and pixels that was.
+fn shade_tile(
     tile: &mut Tile,
-    base: usize,
-    edges: &[Edge; 3],
-    plane: &DepthPlane,
-    offset: [i32; 2],
-    bounds: TileBounds,
-    handle: Handle,
-    height: usize,
+    chunks: &[usize],
+    scene: &TileScene<'_>,
+    list: &mut FragmentList,
+) -> (u64, u64) {
+    let samples = scene.viewport.samples;
+    let mut pixels = Pixels::of(tile, scene.background, samples);
+    let mut fragments = 0;
+    for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
+        let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
+        collect_fragments(tile, first..last + 1, &pixels.seen, samples, list);
+        shade_fragments(tile, scene.chunks[first].call, scene, list);
+        if samples == 1 {
+            dispatch!(simd => resolve::write_colors(simd, tile, list));
+        } else {
+            dispatch_plain!(resolve::accumulate(list, samples, &mut pixels.sums));
+        }
+        fragments += list.len as u64;
+    }
+    (fragments, if samples == 1 { fragments } else { pixels.resolve(tile) })
+}
+
+/// Lists the pixels in which a primitive of these chunks is seen, each primitive once a pixel.
+fn collect_fragments(
+    tile: &Tile,
+    chunks: Range<usize>,
+    seen: &[u32],
+    samples: usize,
+    list: &mut FragmentList,
 ) {
-    let dx = f64::from(offset[0]) / f64::from(SUBPIXELS);
-    let dy = f64::from(offset[1]) / f64::from(SUBPIXELS);
-    let steps = [edges[0].steps(), edges[1].steps(), edges[2].steps()];
-    let most = [steps[0][7].max(0), steps[1][7].max(0), steps[2][7].max(0)];
-    let mut start = bounds.x[0];
-    while start <= bounds.x[1] {
-        let x = start.min(TILE - WIDTH);
-        start += WIDTH;
-        let columns = Lanes::splat_double(whole(tile.left + x) + dx - plane.origin[0]) + COLUMNS;
-        let along_row = Lanes::splat_double(plane.column) * columns;
-        let mut below = edges.map(|edge| edge.value(x, bounds.y[0]));
-        for y in bounds.y[0]..bounds.y[1] + 1 {
-            let at = below;
-            below = [at[0] + edges[0].row, at[1] + edges[1].row, at[2] + edges[2].row];
-            if bounds.x[1] - bounds.x[0] > 15 && (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0
-            {
+    list.clear(samples);
+    let handles = pack(chunks.start, 0)..pack(chunks.end, 0);
+    if samples == 1 {
+        dispatch_plain!(list.list_visible(&tile.visible, &handles));
+    } else {
+        for pixel in in_blocks().filter(|&pixel| seen[pixel] != 0) {
+            let primitive = tile.visible[pixel];
+            if samples_of(tile, samples, pixel).all(|other| other == primitive) {
+                if handles.contains(&primitive) {
+                    list.add(pixel, primitive, samples);
+                }
                 continue;
             }
-            let window_y = height as f64 - (whole(tile.top + y) + dy);
-            let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
-            let place = base + y * TILE + x;
-            let (Some(depths), Some(visible)) =
-                (tile.depth[place..].first_chunk_mut(), tile.visible[place..].first_chunk_mut())
-            else {
-                continue;
-            };
-            let mut signs = [0; WIDTH];
-            for (i, sign) in signs.iter_mut().enumerate() {
-                // Negative where the pixel is outside of any edge.
-                *sign = (at[0] + steps[0][i]) | (at[1] + steps[1][i]) | (at[2] + steps[2][i]);
-            }
-            depth_test(&signs, Lanes::splat_double(row_depth) + along_row, handle, depths, visible);
+            list.add_pixel(pixel, samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen)));
         }
     }
+    list.finish();
 }
 
-/// A column or row of the picture as a number.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "pictures are at most 16384 wide"
-)]
-fn whole(pixel: usize) -> f64 {
-    f64::from(pixel as i32)
+/// What each sample of a pixel sees.
+fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
+    (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
 }
 
-/// The columns of eight pixels, from the first one's.
-const COLUMNS: Wide<f64> = Wide([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+/// Runs the fragment program of a call over its fragments.
+fn shade_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
+    #[expect(clippy::cast_precision_loss, reason = "pictures are at most 16384 pixels wide")]
+    let origin = [tile.left as f32 + 0.5, scene.viewport.height as f32 - (tile.top as f32 + 0.5)];
+    let input = ShadeInput { origin, chunks: scene.chunks, vertices: &scene.buffers[call] };
+    scene.calls[call].shade(&input, list);
+}
 
-/// Depths of eight pixels.
-type Lanes = Wide<f32>;
-
-/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive. No branch a
-/// pixel, so that it is vectorised.
-#[inline(always)]
-fn depth_test(
-    signs: &[i32; WIDTH],
-    z: Wide<f64>,
-    handle: Handle,
-    depths: &mut [f32; WIDTH],
-    visible: &mut [Handle; WIDTH],
-) {
-    let z = Lanes::narrow(z);
-    // A sample may lie outside of the unsnapped corners, and the plane there below 0.
-    let z = z.select_less(Lanes::splat(0.0), Lanes::splat(0.0), z);
-    for i in 0..WIDTH {
-        // Outside, all bits are set: a NaN, which is not nearer than anything.
-        let z = f32::from_bits(z.0[i].to_bits() | (signs[i] >> 31).cast_unsigned());
-        let pass = z < depths[i];
-        depths[i] = if pass { z } else { depths[i] };
-        let kept = u32::from(pass).wrapping_neg();
-        visible[i] = (handle & kept) | (visible[i] & !kept);
+/// Object and primitive of what a pixel sees, as `draw` defines them; 0 for the background.
+fn id(handle: Handle, scene: &TileScene<'_>) -> u32 {
+    if handle == 0 {
+        return 0;
     }
-}
-
-/// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
-#[inline(always)]
-fn tile_edges(corners: &[Corner; 3], tile: &Tile, offset: [i32; 2]) -> Option<[Edge; 3]> {
-    let (a, b, c) = (corners[0].snapped?, corners[1].snapped?, corners[2].snapped?);
-    Some([tile_edge(a, b, tile, offset)?, tile_edge(b, c, tile, offset)?, tile_edge(c, a, tile, offset)?])
-}
-
-/// The edge from `from` to `to` over a tile; `None` if the whole tile is outside.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "an edge that crosses the tile is below 127 · 2^24 in it"
-)]
-#[inline(always)]
-fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Option<Edge> {
-    let (column, row) = (from[1] - to[1], to[0] - from[0]);
-    let inclusive = column > 0 || (column == 0 && row < 0);
-    let first = |start: usize, axis: usize| {
-        start as i64 * i64::from(SUBPIXELS) + i64::from(offset[axis]) - i64::from(from[axis])
-    };
-    let value = i64::from(column) * first(tile.left, 0) + i64::from(row) * first(tile.top, 1);
-    let at = (value - i64::from(!inclusive)) >> SUBPIXELS.trailing_zeros();
-    let last = TILE as i64 - 1;
-    let (columns, rows) = (i64::from(column) * last, i64::from(row) * last);
-    if at + columns.max(0) + rows.max(0) < 0 {
-        return None;
-    }
-    if at + columns.min(0) + rows.min(0) >= 0 {
-        return Some(Edge::default());
-    }
-    Some(Edge { at: at as i32, column, row })
-}
-
-impl DepthPlane {
-    /// The plane through the unsnapped corners; `scale` is 1 / `window_area`.
-    #[inline(always)]
-    fn of(corners: &[Corner; 3], scale: f64) -> Self {
-        let [a, b, c] = [&corners[0].window, &corners[1].window, &corners[2].window];
-        let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-        let (zb, zc) = (d(b.z, a.z), d(c.z, a.z));
-        Self {
-            origin: [a.x.into(), a.y.into()],
-            at: a.z.into(),
-            column: (zb * d(c.y, a.y) - zc * d(b.y, a.y)) * scale,
-            row: (zc * d(b.x, a.x) - zb * d(c.x, a.x)) * scale,
-        }
-    }
+    let (chunk, index) = unpack(handle);
+    let chunk = &scene.chunks[chunk];
+    let source = chunk
+        .triangles
+        .get(index)
+        .map(|triangle| triangle.source)
+        .or_else(|| chunk.lines.get(index).map(|line| line.source));
+    #[expect(clippy::cast_possible_truncation, reason = "objects are few")]
+    let object = chunk.call as u32 + 1;
+    // A cloth of more than 2.7 million points has more springs than 24 bits count.
+    object << 24 | (source.unwrap_or(0) + 1).min(0xFF_FFFF)
 }

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::{
     clip,
+    program::{Varyings, VertexProgram},
     setup::{Corner, Viewport},
 };
-use crate::{lanes::level::dispatch_plain, mesh::Attributes, shader::glsl::VertexProgram};
+use crate::lanes::level::dispatch_plain;
 
 /// What the vertex stage puts out.
 #[derive(Clone, Debug, Default)]
@@ -37,14 +38,14 @@ fn project(viewport: &Viewport, positions: &[[f32; 4]], corners: &mut [Corner], 
 }
 
 impl VertexBuffer {
-    /// Runs `program` over `count` vertices and finds their places in the window. What the buffer held
+    /// Runs `program` over `count` vertices and projects them into the window. What the buffer held
     /// does not matter; its memory is used.
-    pub(super) fn fill<const N: usize>(
+    pub(super) fn fill<A, V: Varyings<f32, N>, const N: usize>(
         &mut self,
         count: usize,
         viewport: &Viewport,
-        attributes: impl Fn(usize) -> Attributes + Sync,
-        program: &impl VertexProgram<N>,
+        attributes: impl Fn(usize) -> A + Sync,
+        program: &impl VertexProgram<A, V>,
     ) {
         let stride = N.max(1);
         self.stride = stride;
@@ -59,7 +60,7 @@ impl VertexBuffer {
             for (vertex, (position, varyings)) in (group * GROUP..).zip(vertices) {
                 let output = program(&attributes(vertex));
                 *position = output.0;
-                varyings[..N].copy_from_slice(&output.1);
+                output.1.write(varyings);
             }
             dispatch_plain!(project(viewport, positions, corners, outside));
         });

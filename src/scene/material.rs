@@ -1,11 +1,12 @@
 //! What an object looks like.
 
-use super::json::choice::{choice, choices};
+use super::json::choice::choice;
 use super::json::keys::keys;
 use super::json::list::Vector;
 use super::json::object::{Object, defaults};
 use super::json::range::{ANY, NOT_NEGATIVE};
 use super::json::scalar::Name;
+use super::shader::Shader;
 use crate::math::Vec3;
 
 keys! {
@@ -50,34 +51,6 @@ keys! {
         /// The six pictures around the scene that `mirror` and `custom` show: the name of a folder in
         /// `--textures DIR` with `posx.png`, `negx.png` and so on; `cube` is built in.
         environment: String => ["cube".into()] Name;
-    }
-}
-
-choices! {
-    /// Which program draws an object (`material.shader`).
-    pub enum Shader {
-        /// The springs of the cloth as lines; other objects flat. Reads `color`.
-        Wireframe = "wireframe",
-        /// The direction of the surface as a colour.
-        Normal = "normal",
-        /// Matt, in the light (Lambert's law). Reads `color` and `kd`.
-        Diffuse = "diffuse",
-        /// Matt with a highlight and some light everywhere (Blinn-Phong). Reads `color`, `ka`, `kd`, `ks` and
-        /// `shininess`.
-        Phong = "phong",
-        /// The texture alone, without light. Reads `texture`.
-        Texture = "texture",
-        /// As `phong`, with the relief of the height map shaded on a smooth surface. Also reads `height_map`,
-        /// `normal_scaling` and `height_scaling`.
-        Bump = "bump",
-        /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too. Reads the
-        /// same keys.
-        Displacement = "displacement",
-        /// The environment, mirrored. Reads `environment`.
-        Mirror = "mirror",
-        /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together. Reads the keys of
-        /// `displacement` except `color`, and `texture`, `environment`, `km` and `light.color`.
-        Custom = "custom",
     }
 }
 

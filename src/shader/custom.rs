@@ -4,39 +4,35 @@
 use super::{
     Uniforms,
     bump::bumped_normal,
-    glsl::{Vec3, dot, max, normalize, pow, reflect, uniform, vec3},
+    default::Relief,
     sampler::{Sampler2d, SamplerCube, texture, texture_cube},
 };
-use crate::lanes::Lane;
+use crate::glsl::{dot, float, max, normalize, pow, reflect};
 
 pub use super::displacement::vertex;
 
-/// `custom.frag`
-pub fn fragment<'a, L: Lane>(
-    u: &Uniforms,
-    u_texture_1: Sampler2d<'a>,
-    u_texture_2: Sampler2d<'a>,
-    u_texture_cubemap: SamplerCube<'a>,
-) -> impl Fn(&[L; 11]) -> Vec3<L> + use<'a, L> {
-    let u = *u;
-    #[inline(always)]
-    move |&[x, y, z, nx, ny, nz, tx, ty, tz, s, t]| {
-        let (v_position, v_normal, v_tangent) = (vec3(x, y, z), vec3(nx, ny, nz), vec3(tx, ty, tz));
-        let v_uv = [s, t];
+crate::fragment_program! {
+    /// `custom.frag`
+    pub struct Fragment<'a> {
+        u: Uniforms,
+        u_texture_1: Sampler2d<'a>,
+        u_texture_2: Sampler2d<'a>,
+        u_texture_cubemap: SamplerCube<'a>,
+    }
+    |Relief { v_position, v_normal, v_tangent, v_uv }| {
         let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, v_uv);
-        let a = texture(u_texture_1, s, t);
-        let q = normalize(uniform::<L>(u.u_light_color));
-        let to_light = uniform(u.u_light_pos) - v_position;
+        let a = texture(u_texture_1, v_uv);
+        let q = normalize(u.u_light_color);
+        let to_light = u.u_light_pos - v_position;
         let r2 = dot(to_light, to_light);
         let l = normalize(to_light);
-        let v = normalize(uniform(u.u_cam_pos) - v_position);
+        let v = normalize(u.u_cam_pos - v_position);
         let h = normalize(l + v);
-        let irradiance = uniform(u.u_light_intensity) * (L::splat(1.0) / r2);
-        let ambient = q * L::splat(u.u_ka);
-        let diffuse = irradiance * (L::splat(u.u_kd) * max(L::splat(0.0), dot(n, l)));
-        let specular =
-            q * irradiance * (L::splat(u.u_ks) * pow(max(L::splat(0.0), dot(n, h)), u.u_shininess));
-        let mirror = texture_cube(u_texture_cubemap, reflect(-v, n)) * L::splat(u.u_km);
+        let irradiance = u.u_light_intensity * (float(1.0) / r2);
+        let ambient = q * u.u_ka;
+        let diffuse = irradiance * (u.u_kd * max(0.0, dot(n, l)));
+        let specular = q * irradiance * (u.u_ks * pow(max(0.0, dot(n, h)), u.u_shininess));
+        let mirror = texture_cube(u_texture_cubemap, reflect(-v, n)) * u.u_km;
         a * (ambient + diffuse) + specular + mirror
     }
 }

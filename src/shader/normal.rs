@@ -1,19 +1,15 @@
 //! `normal`: the normal as a colour, (n + 1)/2.
 
-use super::{
-    Uniforms,
-    glsl::{Vec3, normalize, uniform, vec3},
-};
-use crate::lanes::Lane;
+use super::default::Oriented;
+use crate::glsl::normalize;
 
 pub use super::default::normal as vertex;
 
-/// `normal.frag`
-pub fn fragment<L: Lane>(_u: &Uniforms) -> impl Fn(&[L; 3]) -> Vec3<L> + use<L> {
-    #[inline(always)]
-    move |&[x, y, z]| {
-        let v_normal = vec3(x, y, z);
+crate::fragment_program! {
+    /// `normal.frag`
+    pub struct Fragment {}
+    |Oriented { v_normal }| {
         let n = normalize(v_normal);
-        (n + uniform([1.0; 3])) * L::splat(0.5)
+        (n + n.all(1.0)) * n.x.all(0.5)
     }
 }

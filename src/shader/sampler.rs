@@ -5,12 +5,11 @@
 //! in f64: that is what the rounding of u·w - 0.5 can move the weights by. It is exact for
 //! coordinates in 0..=2 where both sides are powers of two, and what is left is 2⁻²¹ (tested).
 
-use std::hint::black_box;
-
-use super::glsl::{Vec3, dot, vec3};
 use crate::{
     cubemap::Cubemap,
-    lanes::{Lane, WIDTH, Wide},
+    glsl::{Vec3, dot},
+    lanes::{Lane, MAX_WIDTH, Part, Whole},
+    raster::Uniform,
     scene::Filter,
     texture::Texture,
 };
@@ -33,51 +32,114 @@ pub struct SamplerCube<'a> {
     pub filter: Filter,
 }
 
+impl<'a> Uniform for Sampler2d<'a> {
+    type In<L: Lane> = Self;
+    #[inline(always)]
+    fn in_lanes<L: Lane>(&self, _token: L::Token) -> Self {
+        *self
+    }
+}
+
+impl<'a> Uniform for SamplerCube<'a> {
+    type In<L: Lane> = Self;
+    #[inline(always)]
+    fn in_lanes<L: Lane>(&self, _token: L::Token) -> Self {
+        *self
+    }
+}
+
 /// `texture(sampler2D, vec2(u, v)).rgb`
 #[inline(always)]
-pub fn texture<L: Lane>(sampler: Sampler2d<'_>, u: L, v: L) -> Vec3<L> {
+pub fn texture<L: Lane>(sampler: Sampler2d<'_>, [u, v]: [L; 2]) -> Vec3<L> {
     let Sampler2d { texture, filter } = sampler;
     let size = [texture.width(), texture.height()];
-    look_up(filter, [u, v], size, Edge::Repeat, &[texture.texels(); WIDTH])
+    let rgb = L::map_parts(
+        [u, v, v],
+        #[inline(always)]
+        |[u, v, _]| look_up(filter, [u, v], size, Edge::Repeat, &Picture(texture.texels())),
+    );
+    Vec3::from(rgb)
 }
 
 /// `texture(samplerCube, direction).rgb`. Ties between axes: z before y before x. The zero
 /// direction (and NaN, and one whose squared length is 0 in f32) reads the middle of the +x face.
 #[inline(always)]
 pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Vec3<L> {
+    let rgb = L::map_parts(
+        direction.into(),
+        #[inline(always)]
+        |direction| cube_texel(sampler, Vec3::from(direction)),
+    );
+    Vec3::from(rgb)
+}
+
+/// `texture_cube` of one part.
+#[inline(always)]
+fn cube_texel<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
     let (face, s, t) = cube_face(direction);
-    let (faces, size) = (sampler.cubemap.faces(), sampler.cubemap.size());
-    let mut texels = [faces[0].texels(); WIDTH];
-    for (texels, face) in texels.iter_mut().zip(face.to_whole().0) {
-        *texels = faces[face.cast_unsigned() as usize].texels();
+    let faces = Faces::of(sampler.cubemap, face);
+    look_up(sampler.filter, [s, t], [sampler.cubemap.size(); 2], Edge::Clamp, &faces)
+}
+
+/// The pictures that the lanes look into.
+trait Pictures {
+    /// The texels of a lane's picture.
+    fn texels(&self, lane: usize) -> &[[f32; 4]];
+}
+
+/// One for all lanes.
+struct Picture<'a>(&'a [[f32; 4]]);
+
+/// A face of a cube for each lane.
+struct Faces<'a>([&'a [[f32; 4]]; MAX_WIDTH]);
+
+impl Pictures for Picture<'_> {
+    #[inline(always)]
+    fn texels(&self, _lane: usize) -> &[[f32; 4]] {
+        self.0
     }
-    look_up(sampler.filter, [s, t], [size; 2], Edge::Clamp, &texels)
+}
+
+impl Pictures for Faces<'_> {
+    #[inline(always)]
+    fn texels(&self, lane: usize) -> &[[f32; 4]] {
+        self.0[lane]
+    }
+}
+
+impl<'a> Faces<'a> {
+    #[inline(always)]
+    fn of<P: Part>(cubemap: &'a Cubemap, face: P) -> Self {
+        let (faces, face) = (cubemap.faces(), face.to_whole());
+        let mut texels = [faces[0].texels(); MAX_WIDTH];
+        for (lane, texels) in texels.iter_mut().enumerate().take(P::WIDTH) {
+            *texels = faces[face.lane(lane).cast_unsigned() as usize].texels();
+        }
+        Self(texels)
+    }
 }
 
 /// Face number (posx, negx, posy, negy, posz, negz) and coordinates (s, t) in 0..=1 of a direction.
 #[inline(always)]
-fn cube_face<L: Lane>(r: Vec3<L>) -> (L, L, L) {
-    let zero = L::splat(0.0);
+fn cube_face<P: Part>(r: Vec3<P>) -> (P, P, P) {
+    let number = |value: f32| r.x.all(value);
+    let zero = number(0.0);
     let (ax, ay, az) = (r.x.abs(), r.y.abs(), r.z.abs());
     // First +x / -x, then y where it is at least as long, then z where it is as long as both.
-    let positive = |component: L, yes: L, no: L| component.select_less(zero, no, yes);
-    let mut face = positive(r.x, L::splat(0.0), L::splat(1.0));
+    let positive = |component: P, yes: P, no: P| component.select_less(zero, no, yes);
+    let mut face = positive(r.x, number(0.0), number(1.0));
     let (mut sc, mut tc, mut ma) = (positive(r.x, -r.z, r.z), -r.y, ax);
-    let (y_face, y_tc) = (positive(r.y, L::splat(2.0), L::splat(3.0)), positive(r.y, r.z, -r.z));
-    let on_y = |y: L, x: L| ay.select_less(ax, x, y);
+    let (y_face, y_tc) = (positive(r.y, number(2.0), number(3.0)), positive(r.y, r.z, -r.z));
+    let on_y = |y: P, x: P| ay.select_less(ax, x, y);
     (face, sc, tc, ma) = (on_y(y_face, face), on_y(r.x, sc), on_y(y_tc, tc), on_y(ay, ma));
-    let (z_face, z_sc) = (positive(r.z, L::splat(4.0), L::splat(5.0)), positive(r.z, r.x, -r.x));
-    let on_z = |z: L, other: L| az.select_less(ma, other, z);
+    let (z_face, z_sc) = (positive(r.z, number(4.0), number(5.0)), positive(r.z, r.x, -r.x));
+    let on_z = |z: P, other: P| az.select_less(ma, other, z);
     (face, sc, tc, ma) = (on_z(z_face, face), on_z(z_sc, sc), on_z(-r.y, tc), on_z(az, ma));
-    let half = L::splat(0.5);
     let length = dot(r, r);
-    let or_middle = |value: L, middle: L| zero.select_less(length, value, middle);
-    let coordinate = |c: L| or_middle((c / ma + L::splat(1.0)) * half, half);
+    let or_middle = |value: P, middle: P| zero.select_less(length, value, middle);
+    let coordinate = |c: P| or_middle((c / ma + 1.0) * 0.5, number(0.5));
     (or_middle(face, zero), coordinate(sc), coordinate(tc))
 }
-
-/// A column or row of texels per lane, 0..n.
-type Places = Wide<u32>;
 
 /// What lies beyond the edge of a picture.
 #[derive(Clone, Copy)]
@@ -90,27 +152,29 @@ enum Edge {
 
 /// Filters texels around (u·w, v·h) of each lane's picture.
 #[inline(always)]
-fn look_up<L: Lane>(
+fn look_up<P: Part>(
     filter: Filter,
-    [u, v]: [L; 2],
+    [u, v]: [P; 2],
     [w, h]: [usize; 2],
     edge: Edge,
-    texels: &[&[[f32; 4]]; WIDTH],
-) -> Vec3<L> {
+    pictures: &impl Pictures,
+) -> [P; 3] {
     let (w, h) = (side(w), side(h));
-    let (x, y) = (u * size(w), v * size(h));
+    let (x, y) = (u * w as f32, v * h as f32);
     match filter {
         Filter::Nearest => {
             let ([i, _], [j, _]) = (edge.neighbors(x.floor(), w), edge.neighbors(y.floor(), h));
-            gather(texels, w, &i, &j)
+            gather(x.token(), pictures, j * w + i)
         }
         Filter::Bilinear => {
-            let (x, y) = (x - L::splat(0.5), y - L::splat(0.5));
+            let (x, y) = (x - 0.5, y - 0.5);
             let (i, j) = (x.floor(), y.floor());
             let (fx, fy) = (x - i, y - j);
             let ([i0, i1], [j0, j1]) = (edge.neighbors(i, w), edge.neighbors(j, h));
-            let top = mix(gather(texels, w, &i0, &j0), gather(texels, w, &i1, &j0), fx);
-            let bottom = mix(gather(texels, w, &i0, &j1), gather(texels, w, &i1, &j1), fx);
+            let (top, bottom) = (j0 * w, j1 * w);
+            let texels = |place: P::Whole| gather(x.token(), pictures, place);
+            let top = mix::<P>(texels(top + i0), texels(top + i1), fx);
+            let bottom = mix::<P>(texels(bottom + i0), texels(bottom + i1), fx);
             mix(top, bottom, fy)
         }
     }
@@ -118,44 +182,36 @@ fn look_up<L: Lane>(
 
 /// `mix(a, b, f)` as a + (b - a)·f, which gives a exactly when a = b.
 #[inline(always)]
-fn mix<L: Lane>(a: Vec3<L>, b: Vec3<L>, f: L) -> Vec3<L> {
-    a + (b - a) * f
+fn mix<P: Part>(a: [P; 3], b: [P; 3], f: P) -> [P; 3] {
+    let ([ar, ag, ab], [br, bg, bb]) = (a, b);
+    [ar + (br - ar) * f, ag + (bg - ag) * f, ab + (bb - ab) * f]
 }
 
-/// The texel in column i and row j of each lane's picture of width `w`, turned from pixels into channels.
+/// The texel at index `place` of each lane's picture.
 #[inline(always)]
-fn gather<L: Lane>(texels: &[&[[f32; 4]]; WIDTH], w: u32, i: &Places, j: &Places) -> Vec3<L> {
-    let mut places = Wide([0; WIDTH]);
-    for (place, (i, j)) in places.0.iter_mut().zip(i.0.iter().zip(&j.0)) {
-        *place = j * w + i;
-    }
-    // Through memory: computed side by side, then read one by one.
-    let places = black_box(places);
-    let mut fetched = [[0.0; 4]; WIDTH];
-    for (lane, texel) in fetched.iter_mut().enumerate().take(L::LANES) {
-        *texel = texels[lane][places.0[lane] as usize];
-    }
-    let channel = |c: usize| L::from_fn(|lane| fetched[lane][c]);
-    vec3(channel(0), channel(1), channel(2))
+fn gather<P: Part>(token: P::Token, pictures: &impl Pictures, place: P::Whole) -> [P; 3] {
+    P::transpose(
+        token,
+        #[inline(always)]
+        |lane| pictures.texels(lane)[place.lane(lane).cast_unsigned() as usize],
+    )
 }
 
 /// A side of a texture as indices are counted.
-#[expect(clippy::cast_possible_truncation, reason = "textures are at most 16384 texels wide")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "textures are at most 16384 texels wide"
+)]
 #[inline(always)]
-fn side(n: usize) -> u32 {
-    n as u32
-}
-
-#[expect(clippy::cast_precision_loss, reason = "textures are at most 16384 texels wide")]
-#[inline(always)]
-fn size<L: Lane>(n: u32) -> L {
-    L::splat(n as f32)
+fn side(n: usize) -> i32 {
+    n as i32
 }
 
 impl Edge {
     /// The columns (or rows) i and i + 1, brought into 0..n.
     #[inline(always)]
-    fn neighbors<L: Lane>(self, i: L, n: u32) -> [Places; 2] {
+    fn neighbors<P: Part>(self, i: P, n: i32) -> [P::Whole; 2] {
         match self {
             Self::Repeat => repeat(i.to_whole(), n),
             Self::Clamp => clamp(i.to_whole(), n),
@@ -165,21 +221,26 @@ impl Edge {
 
 /// The Euclidean modulus of i and of i + 1.
 #[inline(always)]
-fn repeat(i: Wide<i32>, n: u32) -> [Places; 2] {
-    let mut first = i.each(i32::cast_unsigned);
+fn repeat<I: Whole>(i: I, n: i32) -> [I; 2] {
     // Nearly always all are inside; a division costs more than the rest of the look-up.
-    if first.0.iter().fold(false, |outside, &i| outside | (i >= n)) {
-        first = i.each(|i| i.rem_euclid(n.cast_signed()).cast_unsigned());
-    }
-    // Through memory, or the compiler goes on with each by itself.
-    let first = black_box(first);
-    [first, first.each(|i| if i + 1 == n { 0 } else { i + 1 })]
+    let first = if i.within(n) { i } else { each_modulo(i, n) };
+    let next = first + 1;
+    [first, next.select_equal(next.all(n), next.all(0), next)]
+}
+
+/// The Euclidean modulus of one lane after the other.
+#[inline(always)]
+fn each_modulo<I: Whole>(i: I, n: i32) -> I {
+    i.each(
+        #[inline(always)]
+        |i| i.rem_euclid(n),
+    )
 }
 
 /// i and i + 1, clamped.
 #[inline(always)]
-fn clamp(i: Wide<i32>, n: u32) -> [Places; 2] {
-    let last = n.cast_signed() - 1;
-    let before = i.each(|i| i.clamp(-1, last));
-    [before.each(|i| i.max(0).cast_unsigned()), before.each(|i| (i + 1).min(last).cast_unsigned())]
+fn clamp<I: Whole>(i: I, n: i32) -> [I; 2] {
+    let last = i.all(n - 1);
+    let before = i.max(i.all(-1)).min(last);
+    [before.max(i.all(0)), (before + 1).min(last)]
 }

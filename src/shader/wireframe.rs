@@ -1,16 +1,12 @@
 //! `wireframe`: the flat colour.
 
-use super::{
-    Uniforms,
-    glsl::{Vec3, uniform},
-};
-use crate::lanes::Lane;
+use super::Uniforms;
+use crate::raster::NoVaryings;
 
 pub use super::default::position_only as vertex;
 
-/// `wireframe.frag`
-pub fn fragment<L: Lane>(u: &Uniforms) -> impl Fn(&[L; 0]) -> Vec3<L> + use<L> {
-    let u_color = u.u_color;
-    #[inline(always)]
-    move |_| uniform(u_color)
+crate::fragment_program! {
+    /// `wireframe.frag`
+    pub struct Fragment { u: Uniforms }
+    |NoVaryings {}| u.u_color
 }

@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
+    /// Draw and show only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
     /// repeatable (default: all 51 figures, in 56 pictures: five figures have a second picture beside them)
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,

@@ -40,12 +40,12 @@ pub(crate) fn run(
     session: &Session,
 ) -> Result<()> {
     let mut framebuffer = renderer.framebuffer();
-    let (stats, _) = renderer.draw_into(&mut framebuffer, points, options);
+    let stats = renderer.draw_into(&mut framebuffer, points, options);
     let (mut totals, mut stages) = (Vec::new(), Vec::new());
     for _ in 0..runs {
         session.signals.check()?;
         let started = Instant::now();
-        let (_, times) = renderer.draw_into(&mut framebuffer, points, options);
+        let (_, times) = renderer.draw_timed(&mut framebuffer, points, options);
         totals.push(started.elapsed());
         stages.push(times);
     }

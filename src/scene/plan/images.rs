@@ -1,6 +1,6 @@
 //! The images that the shaders of a scene read.
 
-use super::needs::Needs;
+use crate::scene::Needs;
 use crate::scene::Scene;
 
 /// The names of the images that a scene needs, each once, in the order in which the objects that are drawn

@@ -1,14 +1,12 @@
 //! What a scene needs and why, so that nothing else is allocated, read or run.
 
 mod images;
-mod needs;
 mod phases;
 
-use super::{ColliderKind, Material, Scene};
+use super::{ColliderKind, Material, Needs, Scene};
 use phases::Decision;
 
 pub use images::Images;
-pub use needs::Needs;
 
 /// One thing that a scene needs or that is left out, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]

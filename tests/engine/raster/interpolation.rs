@@ -1,8 +1,7 @@
 //! Varyings are perspective-correct to 6·2⁻²⁴ of the largest corner value, and depth is linear in
 //! the window to half an ulp.
 
-use crate::support::{Canvas, Picture, Vertex, cases, varyings, window};
-use drape::lanes::{Lane, Wide};
+use crate::support::{Canvas, Numbers, Picture, Vertex, cases, varyings, window};
 use proptest::prelude::*;
 
 const CANVAS: Canvas = Canvas::new(64, 64);
@@ -62,8 +61,8 @@ fn largest(values: [f64; 3]) -> f64 {
 
 /// The largest error of a varying in one triangle, in units of 2⁻²⁴ of the largest corner value,
 /// divided by κ² with κ = Σ|lᵢrᵢ| / |Σ lᵢrᵢ|, which is 1 inside and grows outside of the corners.
-fn worst_error<L: Lane + 'static>(vertices: &[Vertex; 3], unit: f64) -> f64 {
-    let (seen, picture) = varyings::<L>(CANVAS, vertices, &[[0, 1, 2]]);
+fn worst_error(numbers: Numbers, vertices: &[Vertex; 3], unit: f64) -> f64 {
+    let (seen, picture) = varyings(numbers, CANVAS, vertices, &[[0, 1, 2]]);
     let corners = corners(vertices);
     let mut worst: f64 = 0.0;
     for (seen, centre) in seen.iter().zip(centres(&picture)) {
@@ -84,7 +83,7 @@ proptest! {
 
     #[test]
     fn varyings_are_within_six_roundings(vertices in triangle()) {
-        let worst = worst_error::<Wide<f32>>(&vertices, U);
+        let worst = worst_error(Numbers::Vectors, &vertices, U);
         prop_assert!(worst <= 6.0, "{} roundings", worst);
     }
 
@@ -92,14 +91,14 @@ proptest! {
     /// areas from 1/2 to 4096 pixels they are some 2⁻⁵³·4096.
     #[test]
     fn in_f64_lanes_varyings_have_no_other_error(vertices in triangle()) {
-        let worst = worst_error::<f64>(&vertices, U * U * 128.0);
+        let worst = worst_error(Numbers::F64, &vertices, U * U * 128.0);
         prop_assert!(worst <= 1.0, "{} times 2^-41", worst);
     }
 
     /// The plane through the unsnapped corners, rounded once.
     #[test]
     fn depth_is_linear_in_the_window(vertices in triangle()) {
-        let (_, picture) = varyings::<f32>(CANVAS, &vertices, &[[0, 1, 2]]);
+        let (_, picture) = varyings(Numbers::F32, CANVAS, &vertices, &[[0, 1, 2]]);
         let corners = corners(&vertices);
         let depths = picture.depth.iter().zip(&picture.ids).filter(|&(_, &id)| id != 0);
         for (centre, (&depth, _)) in centres(&picture).into_iter().zip(depths) {
@@ -125,7 +124,7 @@ proptest! {
         let at = |[x, y]: [f64; 2]| [(x - 32.0) / 32.0, (y - 32.0) / 32.0, 0.0, 1.0];
         let volume = determinant(clip);
         prop_assume!(volume.abs() > 0.05);
-        let (seen, picture) = varyings::<Wide<f32>>(CANVAS, &vertices, &[[0, 1, 2]]);
+        let (seen, picture) = varyings(Numbers::Vectors, CANVAS, &vertices, &[[0, 1, 2]]);
         for (seen, centre) in seen.iter().zip(centres(&picture)) {
             let weights = |p: [f64; 4]| {
                 let [a, b, c] = clip;
@@ -162,7 +161,7 @@ fn perspective_is_not_affine() {
         |x: f32, y: f32, w: f32, value: f32| Vertex { clip: [x * w, y * w, 0.0, w], varyings: [value; 3] };
     let vertices =
         [at(-1.0, -1.0, 1.0, 0.0), at(1.0, -1.0, 3.0, 1.0), at(-1.0, 1.0, 1.0, 0.0), at(1.0, 1.0, 3.0, 1.0)];
-    let (seen, picture) = varyings::<f64>(Canvas::new(63, 63), &vertices, &[[0, 1, 2], [2, 1, 3]]);
+    let (seen, picture) = varyings(Numbers::F64, Canvas::new(63, 63), &vertices, &[[0, 1, 2], [2, 1, 3]]);
     assert_eq!(picture.stats.fragments, 63 * 63);
     for row in seen.chunks(63) {
         assert!((row[31][0] - 0.25).abs() < 1e-6, "{}", row[31][0]);

@@ -4,7 +4,6 @@ mod clipping;
 mod coverage;
 mod extremes;
 mod interpolation;
-mod lanes;
 mod lines;
 mod quantisation;
 mod samples;

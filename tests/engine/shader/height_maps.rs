@@ -10,19 +10,12 @@ use crate::support::{
     shaders::{plain, smooth, uniforms},
 };
 use drape::{
-    lanes::Wide,
-    mesh::Mesh,
-    raster::{DrawCall, Primitives},
+    mesh::{Attributes, Mesh},
+    raster::{DrawCall, FragmentProgram, NoVaryings, Primitives, VertexProgram},
     scene::{Needs, Shader, Sphere},
-    shader::{
-        Uniforms, bump, displacement,
-        glsl::{Vec3, VertexProgram},
-        phong, wireframe,
-    },
+    shader::{Uniforms, bump, displacement, phong, wireframe},
     texture::Texture,
 };
-
-type W = Wide<f32>;
 
 /// The unit ball with all attributes.
 fn ball(resolution: u32) -> Mesh {
@@ -38,11 +31,11 @@ fn from_the_front() -> Uniforms {
     Uniforms { u_view_projection, ..uniforms() }
 }
 
-fn draw<const N: usize>(
+fn draw<F: FragmentProgram<N>, const N: usize>(
     canvas: Canvas,
     mesh: &Mesh,
-    vertex: impl VertexProgram<N>,
-    fragment: impl Fn(&[W; N]) -> Vec3<W> + Send + Sync,
+    vertex: impl VertexProgram<Attributes, F::Varyings<f32>>,
+    fragment: F,
 ) -> Picture {
     let triangles = Primitives::Triangles(&mesh.triangles);
     canvas.draw(&[DrawCall::new(triangles, mesh.positions.len(), |i| mesh.vertex(i), vertex, fragment)])
@@ -50,19 +43,19 @@ fn draw<const N: usize>(
 
 #[test]
 fn bump_with_a_flat_height_map_is_phong() {
-    let (u, mesh, canvas) = (&from_the_front(), ball(40), Canvas::new(256, 256));
-    let lit = draw(canvas, &mesh, phong::vertex(u), phong::fragment::<W>(u));
+    let (u, mesh, canvas) = (from_the_front(), ball(40), Canvas::new(256, 256));
+    let lit = draw(canvas, &mesh, phong::vertex(&u), phong::Fragment { u });
     for height in [0.0, 0.5, 1.0] {
         let flat = plain(8, [height; 3]);
-        let bumped = draw(canvas, &mesh, bump::vertex(u), bump::fragment::<W>(u, smooth(&flat)));
+        let bumped = draw(canvas, &mesh, bump::vertex(&u), bump::Fragment { u, u_texture_2: smooth(&flat) });
         assert_eq!(lit, bumped, "height {height}");
     }
     let ground = plain(8, [0.0; 3]);
     let displaced = draw(
         canvas,
         &mesh,
-        displacement::vertex(u, smooth(&ground)),
-        displacement::fragment::<W>(u, smooth(&ground)),
+        displacement::vertex(&u, smooth(&ground)),
+        displacement::Fragment { u, u_texture_2: smooth(&ground) },
     );
     assert_eq!(lit, displaced, "no height, no displacement");
 }
@@ -78,12 +71,17 @@ fn height(v: f64) -> f64 {
 /// The part of pixels where the picture of a displaced ball differs from its true outline: the
 /// curve of radius 1 + kh·height, as the heights depend on the polar angle alone.
 fn outline_error(resolution: u32) -> f64 {
-    let u = &from_the_front();
+    let u = from_the_front();
     let row = |j: usize| [height((j as f64 + 0.5) / ROWS as f64) as f32; 3];
     let waves = Texture::from_rgb(1, ROWS, &(0..ROWS).map(row).collect::<Vec<_>>()).unwrap();
     let canvas = Canvas::new(256, 256);
-    let vertex = displacement::vertex(u, smooth(&waves));
-    let picture = draw(canvas, &ball(resolution), move |a| (vertex(a).0, []), wireframe::fragment::<W>(u));
+    let vertex = displacement::vertex(&u, smooth(&waves));
+    let picture = draw(
+        canvas,
+        &ball(resolution),
+        |a: &Attributes| (vertex(a).0, NoVaryings::default()),
+        wireframe::Fragment { u },
+    );
     let differs = |([x, y], &id): ([u32; 2], &u32)| {
         let [x, y] = [f64::from(x) - 127.5, 127.5 - f64::from(y)].map(|c| c * 3.0 / 256.0);
         let v = drape::math::atan2(x.abs(), y) / std::f64::consts::PI;

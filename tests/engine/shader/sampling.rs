@@ -9,18 +9,16 @@ use crate::support::{
 };
 use drape::{
     cubemap::Cubemap,
-    lanes::Lane,
+    glsl::{Vec3, vec3},
+    lanes::{F64, Part},
     math::splitmix64,
     scene::Filter,
-    shader::{
-        glsl::{Vec3, vec3},
-        sampler::{Sampler2d, SamplerCube, texture, texture_cube},
-    },
+    shader::sampler::{Sampler2d, SamplerCube, texture, texture_cube},
     texture::Texture,
 };
 use proptest::prelude::*;
 
-fn lanes<L: Lane>(color: Vec3<L>) -> [f64; 3] {
+fn lanes<L: Part>(color: Vec3<L>) -> [f64; 3] {
     [color.x, color.y, color.z].map(|channel| channel.lane(0))
 }
 
@@ -82,9 +80,9 @@ proptest! {
         let bound = (size.0 + size.1 + 2) as f64 * ROUNDING;
         for (u, v) in at {
             let expected = bilinear(&picture, u.into(), v.into(), repeat);
-            let error = distance(lanes(texture(sampler, u, v)), expected);
+            let error = distance(lanes(texture(sampler, [u, v])), expected);
             prop_assert!(error <= bound, "{} over {} at {}, {}", error, bound, u, v);
-            let error = distance(lanes(texture(sampler, f64::from(u), f64::from(v))), expected);
+            let error = distance(lanes(texture(sampler, [u, v].map(F64::from))), expected);
             prop_assert!(error <= 1e-12, "{} in f64", error);
         }
     }
@@ -102,11 +100,11 @@ proptest! {
         for (u, v) in at {
             let (s, t) = (u.abs(), v.abs());
             let expected = bilinear(&picture, s.into(), t.into(), repeat);
-            let error = distance(lanes(texture(smooth, s, t)), expected);
+            let error = distance(lanes(texture(smooth, [s, t])), expected);
             prop_assert!(error <= 2.0 * ROUNDING, "{} at {}, {}", error, s, t);
             let index = |c: f32, n: usize| repeat((f64::from(c) * n as f64).floor() as i64, n as i64) as usize;
             let [r, g, b, _] = picture.texel(index(u, size.0), index(v, size.1)).map(f64::from);
-            prop_assert_eq!(lanes(texture(nearest, u, v)), [r, g, b]);
+            prop_assert_eq!(lanes(texture(nearest, [u, v])), [r, g, b]);
         }
     }
 }
@@ -117,7 +115,7 @@ fn the_first_row_is_at_v_0_and_both_axes_repeat() {
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5; 3], [0.0; 3], [1.0; 3]];
     let picture = Texture::from_rgb(3, 2, &[a, b, c, d, e, f]).unwrap();
     let sampler = Sampler2d { texture: &picture, filter: Filter::Nearest };
-    let at = |u: f32, v: f32| lanes(texture(sampler, u, v)).map(|channel| channel as f32);
+    let at = |u: f32, v: f32| lanes(texture(sampler, [u, v])).map(|channel| channel as f32);
     assert_eq!([at(0.1, 0.2), at(0.5, 0.2), at(0.9, 0.2)], [a, b, c]);
     assert_eq!([at(0.1, 0.8), at(0.5, 0.8), at(0.9, 0.8)], [d, e, f]);
     assert_eq!([at(-0.1, 0.2), at(1.1, 0.2), at(-0.9, -0.8), at(0.5, -0.1)], [c, a, a, e]);
@@ -221,7 +219,7 @@ fn every_direction_finds_itself() {
 fn no_direction_at_all_reads_the_middle_of_the_first_face() {
     let map = cube(|i| noise(8, 8, i as u64));
     for filter in [Filter::Nearest, Filter::Bilinear] {
-        let middle = lanes(texture(Sampler2d { texture: &map.faces()[0], filter }, 0.5_f32, 0.5_f32));
+        let middle = lanes(texture(Sampler2d { texture: &map.faces()[0], filter }, [0.5_f32, 0.5]));
         for bad in [[0.0; 3], [-0.0; 3], [f32::NAN; 3], [1.0, f32::NAN, 0.0], [f32::NAN, 0.0, 1.0]] {
             assert_eq!(look(&map, filter, bad), middle, "{bad:?}");
         }

@@ -1,12 +1,15 @@
 //! Every shader program gives the value of its formula, and the values known without one.
 
 use crate::support::shaders::{cube, fragment, noise, plain, random, smooth, smooth_cube, uniforms};
-use drape::shader::{
-    Uniforms, bump, custom, diffuse,
+use drape::{
     glsl::{Exponent, Vec3, pow},
-    mirror, normal, phong,
-    sampler::{Sampler2d, texture as lookup, texture_cube},
-    texture, wireframe,
+    lanes::F64,
+    raster::{FragmentProgram, Varyings},
+    shader::{
+        Uniforms, bump, custom, diffuse, mirror, normal, phong,
+        sampler::{Sampler2d, texture as lookup, texture_cube},
+        texture, wireframe,
+    },
 };
 
 type V = [f64; 3];
@@ -88,63 +91,73 @@ mod formulas {
 }
 use formulas::*;
 
-fn close(what: &str, color: Vec3<f64>, expected: V, bound: f64) {
-    let error = each([color.x, color.y, color.z], expected, |a, b| (a - b).abs());
+/// A program's colour of one fragment, in f64.
+fn run<const N: usize>(program: &impl FragmentProgram<N>, varyings: &[f64; N]) -> V {
+    plain_vector(program.stage::<F64>(())(Varyings::from_numbers(|i| F64(varyings[i]))))
+}
+
+fn plain_vector(v: Vec3<F64>) -> V {
+    [v.x.0, v.y.0, v.z.0]
+}
+
+fn close(what: &str, color: V, expected: V, bound: f64) {
+    let error = each(color, expected, |a, b| (a - b).abs());
     assert!(error.into_iter().all(|e| e <= bound), "{what}: {color:?} for {expected:?}");
 }
 
 #[test]
 fn every_program_is_its_formula() {
-    let u = &uniforms();
+    let u = uniforms();
     let (picture, heights, map) = (noise(37, 53, 1), noise(64, 32, 2), cube(|i| noise(17, 17, i as u64)));
     let (one, two, environment) = (smooth(&picture), smooth(&heights), smooth_cube(&map));
-    let look = |sampler: Sampler2d<'_>, s: f64, t: f64| {
-        let Vec3 { x, y, z } = lookup(sampler, s, t);
-        [x, y, z]
-    };
-    let around = |[x, y, z]: V| {
-        let Vec3 { x, y, z } = texture_cube(environment, Vec3 { x, y, z });
-        [x, y, z]
-    };
+    let look = |sampler: Sampler2d<'_>, s: f64, t: f64| plain_vector(lookup(sampler, [F64(s), F64(t)]));
+    let around = |direction: V| plain_vector(texture_cube(environment, direction.map(F64).into()));
     for i in 0..2000 {
         let all = fragment(i).map(f64::from);
         let [x, y, z, nx, ny, nz, _, _, _, s, t] = all;
         let (p, n) = ([x, y, z], unit([nx, ny, nz]));
-        let bumped = bumped(u, |s, t| look(two, s, t)[0], [64.0, 32.0], &all);
+        let bumped = bumped(&u, |s, t| look(two, s, t)[0], [64.0, 32.0], &all);
         let six = &[x, y, z, nx, ny, nz];
-        close("wireframe", wireframe::fragment(u)(&[]), u.u_color.map(f64::from), 0.0);
-        close("normal", normal::fragment(u)(&[nx, ny, nz]), n.map(|c| (c + 1.0) / 2.0), 1e-13);
-        close("diffuse", diffuse::fragment(u)(six), lambert(u, p, n), 1e-12);
-        close("phong", phong::fragment(u)(six), blinn_phong(u, p, n), 1e-12);
-        close("texture", texture::fragment(u, one)(&[s, t]), look(one, s, t), 0.0);
-        close("mirror", mirror::fragment(u, environment)(six), around(mirrored(u, p, n)), 1e-11);
-        close("bump", bump::fragment(u, two)(&all), blinn_phong(u, p, bumped), 1e-11);
-        let expected = ceramic(u, p, bumped, look(one, s, t), around(mirrored(u, p, bumped)));
-        close("custom", custom::fragment(u, one, two, environment)(&all), expected, 1e-11);
+        close("wireframe", run(&wireframe::Fragment { u }, &[]), u.u_color.map(f64::from), 0.0);
+        close("normal", run(&normal::Fragment {}, &[nx, ny, nz]), n.map(|c| (c + 1.0) / 2.0), 1e-13);
+        close("diffuse", run(&diffuse::Fragment { u }, six), lambert(&u, p, n), 1e-12);
+        close("phong", run(&phong::Fragment { u }, six), blinn_phong(&u, p, n), 1e-12);
+        close("texture", run(&texture::Fragment { u_texture_1: one }, &[s, t]), look(one, s, t), 0.0);
+        close(
+            "mirror",
+            run(&mirror::Fragment { u, u_texture_cubemap: environment }, six),
+            around(mirrored(&u, p, n)),
+            1e-11,
+        );
+        close("bump", run(&bump::Fragment { u, u_texture_2: two }, &all), blinn_phong(&u, p, bumped), 1e-11);
+        let expected = ceramic(&u, p, bumped, look(one, s, t), around(mirrored(&u, p, bumped)));
+        let custom =
+            custom::Fragment { u, u_texture_1: one, u_texture_2: two, u_texture_cubemap: environment };
+        close("custom", run(&custom, &all), expected, 1e-11);
     }
 }
 
 /// A surface that faces the light and the camera, two metres away: r² = 4 and every cosine is 1.
 #[test]
 fn facing_the_light_every_cosine_is_one() {
-    let u = &Uniforms { u_light_pos: [0.0, 0.0, 2.0], u_cam_pos: [0.0, 0.0, 5.0], ..uniforms() };
+    let u = Uniforms { u_light_pos: [0.0, 0.0, 2.0], u_cam_pos: [0.0, 0.0, 5.0], ..uniforms() };
     let facing = &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let lambert = [0, 1, 2].map(|c| f64::from(u.u_kd * u.u_color[c] * u.u_light_intensity[c]) / 4.0);
-    close("diffuse", diffuse::fragment(u)(facing), lambert, 1e-7);
+    close("diffuse", run(&diffuse::Fragment { u }, facing), lambert, 1e-7);
     let highlight = u.u_light_intensity.map(|i| f64::from(u.u_ks * i) / 4.0);
     let expected = add([f64::from(u.u_ka); 3], add(lambert, highlight));
-    close("phong", phong::fragment(u)(facing), expected, 1e-7);
+    close("phong", run(&phong::Fragment { u }, facing), expected, 1e-7);
 }
 
 /// At a right angle, and from behind, only the ambient part is left.
 #[test]
 fn grazing_light_and_light_from_behind_leave_the_ambient_part() {
-    let u = &Uniforms { u_light_pos: [0.0, 0.0, 2.0], u_cam_pos: [0.0, 0.0, 5.0], ..uniforms() };
+    let u = Uniforms { u_light_pos: [0.0, 0.0, 2.0], u_cam_pos: [0.0, 0.0, 5.0], ..uniforms() };
     for normal in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]] {
         let [nx, ny, nz] = normal;
         let fragment = &[0.0, 0.0, 0.0, nx, ny, nz];
-        close("diffuse", diffuse::fragment(u)(fragment), [0.0; 3], 0.0);
-        close("phong", phong::fragment(u)(fragment), [f64::from(u.u_ka); 3], 0.0);
+        close("diffuse", run(&diffuse::Fragment { u }, fragment), [0.0; 3], 0.0);
+        close("phong", run(&phong::Fragment { u }, fragment), [f64::from(u.u_ka); 3], 0.0);
     }
 }
 
@@ -152,9 +165,9 @@ fn grazing_light_and_light_from_behind_leave_the_ambient_part() {
 #[test]
 fn light_falls_with_the_cosine_and_the_square_of_the_distance() {
     let at = |distance: f32, normal: [f64; 3]| {
-        let u = &Uniforms { u_light_pos: [0.0, 0.0, distance], ..uniforms() };
+        let u = Uniforms { u_light_pos: [0.0, 0.0, distance], ..uniforms() };
         let [nx, ny, nz] = normal;
-        diffuse::fragment(u)(&[0.0, 0.0, 0.0, nx, ny, nz]).x
+        run(&diffuse::Fragment { u }, &[0.0, 0.0, 0.0, nx, ny, nz])[0]
     };
     let facing = at(1.0, [0.0, 0.0, 1.0]);
     assert!((at(1.0, [0.75_f64.sqrt(), 0.0, 0.5]) / facing - 0.5).abs() < 1e-12);
@@ -167,20 +180,21 @@ fn a_mirror_seen_straight_on_shows_the_camera() {
     let map = cube(|i| plain(4, [i as f32 / 8.0, 0.0, 0.0]));
     let axes = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1_i8]];
     for (face, axis) in axes.into_iter().enumerate() {
-        let u = &Uniforms { u_cam_pos: axis.map(|c| 3.0 * f32::from(c)), ..uniforms() };
+        let u = Uniforms { u_cam_pos: axis.map(|c| 3.0 * f32::from(c)), ..uniforms() };
         let [x, y, z] = axis.map(f64::from);
-        let color = mirror::fragment(u, smooth_cube(&map))(&[x, y, z, x, y, z]);
-        assert_eq!(color.x, face as f64 / 8.0, "axis {axis:?}");
+        let color = run(&mirror::Fragment { u, u_texture_cubemap: smooth_cube(&map) }, &[x, y, z, x, y, z]);
+        assert_eq!(color[0], face as f64 / 8.0, "axis {axis:?}");
     }
 }
 
 #[test]
 fn a_white_environment_is_white_from_everywhere() {
-    let u = &uniforms();
+    let u = uniforms();
     let white = cube(|_| plain(5, [1.0; 3]));
     for i in 0..2000 {
         let [x, y, z, nx, ny, nz, ..] = fragment(i);
-        let color = mirror::fragment(u, smooth_cube(&white))(&[x, y, z, nx, ny, nz]);
+        let program = mirror::Fragment { u, u_texture_cubemap: smooth_cube(&white) };
+        let color = program.stage::<f32>(())(Varyings::from_numbers(|i| [x, y, z, nx, ny, nz][i]));
         assert_eq!([color.x, color.y, color.z], [1.0; 3], "fragment {i}");
     }
 }
@@ -188,15 +202,12 @@ fn a_white_environment_is_white_from_everywhere() {
 /// Also where the normal is short, as it is after interpolation.
 #[test]
 fn the_length_of_the_normal_does_not_matter() {
-    let u = &uniforms();
+    let u = uniforms();
     for i in 0..500 {
         let [x, y, z, nx, ny, nz, ..] = fragment(i).map(f64::from);
-        let color = |s: f64| {
-            let Vec3 { x, y, z } = phong::fragment(u)(&[x, y, z, s * nx, s * ny, s * nz]);
-            [x, y, z]
-        };
-        let short = normal::fragment(u)(&[0.25 * nx, 0.25 * ny, 0.25 * nz]);
-        close("normal", normal::fragment(u)(&[nx, ny, nz]), [short.x, short.y, short.z], 1e-13);
+        let color = |s: f64| run(&phong::Fragment { u }, &[x, y, z, s * nx, s * ny, s * nz]);
+        let short = run(&normal::Fragment {}, &[0.25 * nx, 0.25 * ny, 0.25 * nz]);
+        close("normal", run(&normal::Fragment {}, &[nx, ny, nz]), short, 1e-13);
         assert!(each(color(0.125), color(7.0), |a, b| (a - b).abs()).into_iter().all(|e| e < 1e-12));
     }
 }
@@ -210,7 +221,7 @@ fn whole_exponents_are_products() {
         assert_eq!(pow(base, Exponent::of(4.0)), (base * base) * (base * base));
         for p in [3_u16, 10, 32, 64, 100, 255] {
             let product = (0..p).fold(1.0, |product, _| product * f64::from(base));
-            let power = pow(f64::from(base), Exponent::of(p.into()));
+            let F64(power) = pow(F64(base.into()), Exponent::of(p.into()));
             assert!((power - product).abs() <= f64::from(p) * f64::EPSILON * product, "{base}^{p}");
         }
     }

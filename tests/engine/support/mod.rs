@@ -12,10 +12,9 @@ pub(crate) mod shaders;
 use std::sync::Mutex;
 
 use drape::{
-    lanes::{Lane, Wide},
-    mesh::Attributes,
-    raster::{self, DrawCall, Framebuffer, Primitives, Stats},
-    shader::glsl::{VertexOutput, vec3},
+    glsl::Vec3,
+    lanes::{F64, Lane, Part},
+    raster::{self, DrawCall, FragmentProgram, Framebuffer, NoVaryings, Primitives, Stats, VertexOutput},
 };
 use proptest::{prelude::ProptestConfig, test_runner::RngSeed};
 
@@ -70,7 +69,7 @@ impl Canvas {
     /// Draws calls over black.
     pub(crate) fn draw(self, calls: &[DrawCall<'_>]) -> Picture {
         let mut framebuffer = Framebuffer::new(self.width, self.height, self.samples);
-        let (stats, _) = raster::draw(&mut framebuffer, [0.0; 3], calls, true);
+        let stats = raster::draw(&mut framebuffer, [0.0; 3], calls, true);
         let rgb = framebuffer.rgb().as_chunks().0.to_vec();
         Picture { rgb, depth: framebuffer.depth(), ids: framebuffer.ids(), stats }
     }
@@ -86,44 +85,82 @@ impl Canvas {
     }
 }
 
+drape::fragment_program! {
+    /// One colour.
+    pub(crate) struct Flat { color: [f32; 3] }
+    |NoVaryings {}| color
+}
+
 /// Primitives at clip-space positions in one colour.
 pub(crate) fn flat<'a>(
     primitives: Primitives<'a>,
     positions: &'a [[f32; 4]],
     color: [f32; 3],
 ) -> DrawCall<'a> {
-    let vertex = |i: usize| Vertex { clip: positions[i], varyings: [0.0; 3] };
-    let [r, g, b] = color;
-    DrawCall::new::<Wide<f32>, 0>(
-        primitives,
-        positions.len(),
-        move |i| attributes(&vertex(i)),
-        |a: &Attributes| (program(a).0, []),
-        move |_: &[Wide<f32>; 0]| vec3(Lane::splat(r), Lane::splat(g), Lane::splat(b)),
-    )
+    let program = |&clip: &[f32; 4]| (clip, NoVaryings::default());
+    DrawCall::new(primitives, positions.len(), |i| positions[i], program, Flat { color })
 }
 
-/// The varyings of every fragment of `triangles` in the order of shading (that of the pixels, for
-/// a picture of one tile), as the fragment program gets them in lanes `L`.
-pub(crate) fn varyings<L: Lane + 'static>(
+drape::varyings! {
+    /// Three numbers.
+    pub(crate) struct Three { v_three: vec3 }
+}
+
+/// A program that puts out its varyings as a colour, and writes them down.
+pub(crate) struct Record<'a>(pub(crate) &'a Mutex<Vec<[f64; 3]>>);
+
+impl FragmentProgram<3> for Record<'_> {
+    type Varyings<L: Lane> = Three<L>;
+
+    #[inline(always)]
+    fn stage<L: Lane>(&self, _token: L::Token) -> impl Fn(Three<L>) -> Vec3<L> {
+        |Three { v_three }| {
+            let channels = <[L; 3]>::from(v_three).map(lanes);
+            let fragments = (0..channels[0].len()).map(|i| [0, 1, 2].map(|k| channels[k][i]));
+            self.0.lock().unwrap().extend(fragments);
+            v_three
+        }
+    }
+}
+
+/// The lanes of a value.
+pub(crate) fn lanes<L: Lane>(value: L) -> Vec<f64> {
+    let mut lanes = Vec::new();
+    value.each_part(|_, part| lanes.extend((0..<L::Part as Part>::WIDTH).map(|i| part.lane(i))));
+    lanes
+}
+
+/// In which numbers fragments are shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Numbers {
+    /// Vectors of f32, as pictures are drawn.
+    Vectors,
+    /// One f32 at a time.
+    F32,
+    /// One f64 at a time.
+    F64,
+}
+
+/// The varyings of every fragment of `triangles` row by row (of a picture of one tile), as the fragment
+/// program gets them.
+pub(crate) fn varyings(
+    numbers: Numbers,
     canvas: Canvas,
     vertices: &[Vertex],
     triangles: &[[u32; 3]],
 ) -> (Vec<[f64; 3]>, Picture) {
     let seen = Mutex::new(Vec::new());
-    let fragment = |v: &[L; 3]| {
-        let mut seen = seen.lock().unwrap();
-        seen.extend((0..L::LANES).map(|lane| v.map(|value| value.lane(lane))));
-        vec3(v[0], v[1], v[2])
+    let (triangles, count) = (Primitives::Triangles(triangles), vertices.len());
+    let attributes = |i: usize| vertices[i];
+    let call = match numbers {
+        Numbers::Vectors => DrawCall::new(triangles, count, attributes, program, Record(&seen)),
+        Numbers::F32 => {
+            DrawCall::one_by_one::<f32, _, _, 3>(triangles, count, attributes, program, Record(&seen))
+        }
+        Numbers::F64 => {
+            DrawCall::one_by_one::<F64, _, _, 3>(triangles, count, attributes, program, Record(&seen))
+        }
     };
-    let attributes = |i: usize| attributes(&vertices[i]);
-    let call = DrawCall::new::<L, 3>(
-        Primitives::Triangles(triangles),
-        vertices.len(),
-        attributes,
-        program,
-        fragment,
-    );
     let picture = canvas.draw(&[call]);
     let mut seen = seen.into_inner().unwrap();
     assert!(seen.len() >= picture.stats.fragments as usize, "each fragment is shaded");
@@ -149,21 +186,9 @@ pub(crate) fn rows(canvas: Canvas, picture: &Picture) -> Vec<String> {
     picture.ids.chunks(canvas.width as usize).map(|row| row.iter().map(mark).collect()).collect()
 }
 
-/// A vertex packed into attributes, for [`program`] to unpack.
-pub(crate) fn attributes(vertex: &Vertex) -> Attributes {
-    let [x, y, z, w] = vertex.clip;
-    Attributes {
-        in_position: [x, y, z],
-        in_uv: [w, 0.0],
-        in_normal: vertex.varyings,
-        ..Attributes::default()
-    }
-}
-
-/// The vertex program that puts out what [`attributes`] packed.
-pub(crate) fn program(a: &Attributes) -> VertexOutput<3> {
-    let ([x, y, z], [w, _]) = (a.in_position, a.in_uv);
-    ([x, y, z, w], a.in_normal)
+/// The vertex program that puts out what it gets.
+pub(crate) fn program(vertex: &Vertex) -> VertexOutput<Three<f32>> {
+    (vertex.clip, Three { v_three: vertex.varyings.into() })
 }
 
 /// The window position (x right, y up, depth, 1/w) of a clip-space position: r = 1/w and

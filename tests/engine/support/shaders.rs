@@ -2,11 +2,11 @@
 
 use drape::{
     cubemap::Cubemap,
+    glsl::Exponent,
     math::splitmix64,
     scene::Filter,
     shader::{
         Uniforms,
-        glsl::Exponent,
         sampler::{Sampler2d, SamplerCube},
     },
     texture::Texture,

@@ -1,13 +1,11 @@
 //! One primitive of a scene by itself: where it is and how deep, whatever stands in front of it.
 
 use drape::camera::Camera;
-use drape::lanes::Wide;
-use drape::mesh::Attributes;
-use drape::raster::{self, DrawCall, Framebuffer, Primitives};
+use drape::raster::{self, DrawCall, Framebuffer, NoVaryings, Primitives};
 use drape::scene::Scene;
-use drape::shader::glsl;
+use drape::shader::Uniforms;
 use drape::shader::sampler::Sampler2d;
-use drape::shader::{default, displacement};
+use drape::shader::{default, displacement, wireframe};
 use drape::texture::Texture;
 
 use super::object::Object;
@@ -16,6 +14,7 @@ use super::object::Object;
 pub(crate) struct Alone {
     size: [u32; 2],
     corners: Vec<[f32; 4]>,
+    uniforms: Uniforms,
 }
 
 impl Alone {
@@ -41,7 +40,7 @@ impl Alone {
             let program = default::all(&uniforms);
             vertices.map(|vertex| program(&vertex).0).collect()
         };
-        Self { size: scene.render.size, corners }
+        Self { size: scene.render.size, corners, uniforms }
     }
 
     /// Its depths in the whole picture, drawn by `drape::raster`; 1 where it is not.
@@ -51,10 +50,9 @@ impl Alone {
             2 => Primitives::Lines(&[[0, 1]]),
             _ => Primitives::Triangles(&[[0, 1, 2]]),
         };
-        let attributes = |i: usize| Attributes { in_uv: [i as f32, 0.0], ..Default::default() };
-        let vertex = |a: &Attributes| (self.corners[a.in_uv[0] as usize], []);
-        let fragment = |_: &[Wide<f32>; 0]| glsl::uniform([0.0; 3]);
-        let call = DrawCall::new(primitives, self.corners.len(), attributes, vertex, fragment);
+        let vertex = |&corner: &[f32; 4]| (corner, NoVaryings::default());
+        let fragment = wireframe::Fragment { u: self.uniforms };
+        let call = DrawCall::new(primitives, self.corners.len(), |i| self.corners[i], vertex, fragment);
         raster::draw(&mut framebuffer, [0.0; 3], &[call], false);
         framebuffer.depth()
     }

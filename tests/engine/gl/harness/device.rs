@@ -1,9 +1,9 @@
 //! Draws scenes with the driver: programs and textures are kept from one scene to the next.
 
 use drape::camera::{Camera, Columns};
+use drape::glsl::Exponent;
 use drape::scene::{Scene, Shader};
 use drape::shader::Uniforms;
-use drape::shader::glsl::Exponent;
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 use glow::HasContext;

@@ -3,10 +3,10 @@
 
 use drape::camera::{Camera, Columns};
 use drape::cloth::Points;
+use drape::glsl::Exponent;
 use drape::mesh::{Mesh, SpringKinds, spring_lines};
 use drape::scene::{Collider, Material, Needs, Scene, Shader, Vec3};
 use drape::shader::Uniforms;
-use drape::shader::glsl::Exponent;
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 

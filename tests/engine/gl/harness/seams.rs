@@ -3,10 +3,9 @@
 
 use drape::camera::Camera;
 use drape::cubemap::Cubemap;
-use drape::lanes::Wide;
-use drape::raster::{self, DrawCall, Framebuffer, Primitives};
+use drape::mesh::Attributes;
+use drape::raster::{self, DrawCall, FragmentProgram, Framebuffer, Primitives, VertexProgram};
 use drape::scene::{Scene, Shader};
-use drape::shader::glsl::{FragmentProgram, VertexProgram};
 use drape::shader::sampler::{Sampler2d, SamplerCube};
 use drape::shader::{custom, mirror, wireframe};
 use drape::texture::Texture;
@@ -43,11 +42,19 @@ fn faces(scene: &Scene, objects: &[Object<'_>]) -> Vec<[u8; 3]> {
         let height_map =
             height_map.as_ref().map(|texture| Sampler2d { texture, filter: scene.render.filter });
         match (object.material.shader, height_map) {
-            (Shader::Mirror, _) => call(object, mirror::vertex(&u), mirror::fragment(&u, cube)),
-            (Shader::Custom, Some(texture)) => {
-                call(object, custom::vertex(&u, texture), custom::fragment(&u, texture, texture, cube))
+            (Shader::Mirror, _) => {
+                call(object, mirror::vertex(&u), mirror::Fragment { u, u_texture_cubemap: cube })
             }
-            _ => call(object, wireframe::vertex(&u), wireframe::fragment(&u)),
+            (Shader::Custom, Some(texture)) => {
+                let fragment = custom::Fragment {
+                    u,
+                    u_texture_1: texture,
+                    u_texture_2: texture,
+                    u_texture_cubemap: cube,
+                };
+                call(object, custom::vertex(&u, texture), fragment)
+            }
+            _ => call(object, wireframe::vertex(&u), wireframe::Fragment { u }),
         }
     });
     let [width, height] = scene.render.size;
@@ -57,10 +64,10 @@ fn faces(scene: &Scene, objects: &[Object<'_>]) -> Vec<[u8; 3]> {
 }
 
 /// The triangles of an object.
-fn call<'a, const N: usize>(
+fn call<'a, F: FragmentProgram<N> + 'a, const N: usize>(
     object: &'a Object<'_>,
-    vertex: impl VertexProgram<N> + 'a,
-    fragment: impl FragmentProgram<Wide<f32>, N> + 'a,
+    vertex: impl VertexProgram<Attributes, F::Varyings<f32>> + 'a,
+    fragment: F,
 ) -> DrawCall<'a> {
     let mesh = &object.mesh;
     let triangles = Primitives::Triangles(&mesh.triangles);

@@ -1,8 +1,23 @@
-//! The part of GLSL that the programs use, over lanes. Names and meanings are GLSL's.
+//! The part of GLSL that the programs use, over [`Lane`]s. Names and meanings are GLSL's.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::{lanes::Lane, math, mesh::Attributes};
+use crate::{
+    lanes::{Lane, Part},
+    math,
+};
+
+/// `float` in lanes.
+#[expect(non_camel_case_types, reason = "GLSL's name")]
+pub type float<L> = L;
+
+/// `vec2` in lanes.
+#[expect(non_camel_case_types, reason = "GLSL's name")]
+pub type vec2<L> = [L; 2];
+
+/// `vec3` in lanes.
+#[expect(non_camel_case_types, reason = "GLSL's name")]
+pub type vec3<L> = Vec3<L>;
 
 /// `vec3`
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +36,27 @@ pub fn vec3<L>(x: L, y: L, z: L) -> Vec3<L> {
     Vec3 { x, y, z }
 }
 
-/// A uniform `vec3`, the same in every lane.
-#[inline(always)]
-pub fn uniform<L: Lane>(value: [f32; 3]) -> Vec3<L> {
-    let [x, y, z] = value.map(L::splat);
-    vec3(x, y, z)
+impl<L> From<[L; 3]> for Vec3<L> {
+    #[inline(always)]
+    fn from([x, y, z]: [L; 3]) -> Self {
+        vec3(x, y, z)
+    }
+}
+
+impl<L> From<Vec3<L>> for [L; 3] {
+    #[inline(always)]
+    fn from(v: Vec3<L>) -> Self {
+        [v.x, v.y, v.z]
+    }
+}
+
+impl<L: Lane> Vec3<L> {
+    /// `vec3(x)` in the lanes of this vector.
+    #[inline(always)]
+    pub fn all(self, x: f32) -> Self {
+        let x = self.x.all(x);
+        vec3(x, x, x)
+    }
 }
 
 impl<L: Lane> Add for Vec3<L> {
@@ -83,19 +114,45 @@ pub fn cross<L: Lane>(a: Vec3<L>, b: Vec3<L>) -> Vec3<L> {
 /// `normalize(a)`; NaN for the zero vector.
 #[inline(always)]
 pub fn normalize<L: Lane>(a: Vec3<L>) -> Vec3<L> {
-    a * (L::splat(1.0) / dot(a, a).sqrt())
+    a * (float(1.0) / dot(a, a).sqrt())
 }
 
 /// `reflect(incident, n)`
 #[inline(always)]
 pub fn reflect<L: Lane>(incident: Vec3<L>, n: Vec3<L>) -> Vec3<L> {
-    incident - n * (L::splat(2.0) * dot(n, incident))
+    incident - n * (dot(n, incident) * 2.0)
 }
 
-/// `max(a, b)`
+/// `max(a, b)` with a constant `a`; NaN where `b` is.
 #[inline(always)]
-pub fn max<L: Lane>(a: L, b: L) -> L {
-    a.max(b)
+pub fn max<L: Lane>(a: f32, b: L) -> L {
+    b.all(a).max(b)
+}
+
+/// `float(x)`: a constant on the left of an operator.
+#[inline(always)]
+pub fn float(x: f32) -> Float {
+    Float(x)
+}
+
+/// A constant.
+#[derive(Clone, Copy, Debug)]
+pub struct Float(f32);
+
+impl<L: Lane> Div<L> for Float {
+    type Output = L;
+    #[inline(always)]
+    fn div(self, other: L) -> L {
+        other.all(self.0) / other
+    }
+}
+
+impl<L: Lane> Sub<L> for Float {
+    type Output = L;
+    #[inline(always)]
+    fn sub(self, other: L) -> L {
+        other.all(self.0) - other
+    }
 }
 
 /// The exponent of [`pow`]: whole ones are computed by repeated squaring, exactly rounded at each
@@ -125,10 +182,27 @@ impl Exponent {
 #[inline(always)]
 pub fn pow<L: Lane>(base: L, exponent: Exponent) -> L {
     match exponent {
-        Exponent::Whole(whole) => math::powi(base, whole, L::splat(1.0)),
-        #[expect(clippy::cast_possible_truncation, reason = "the function's one rounding to f32")]
-        Exponent::Real(real) => L::from_fn(|i| math::pow(base.lane(i), f64::from(real)) as f32),
+        Exponent::Whole(whole) => math::powi(base, whole, base.all(1.0)),
+        Exponent::Real(real) => {
+            let [power, ..] = L::map_parts(
+                [base; 3],
+                #[inline(always)]
+                |[base, ..]| [each_pow(base, real); 3],
+            );
+            power
+        }
     }
+}
+
+/// `pow` of one lane after the other.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the function's one rounding to f32")]
+fn each_pow<P: Part>(base: P, exponent: f32) -> P {
+    P::from_fn(
+        base.token(),
+        #[inline(always)]
+        |i| math::pow(base.lane(i), f64::from(exponent)) as f32,
+    )
 }
 
 /// `M * vec4(p, w)` with the columns of M: ((c0·x + c1·y) + c2·z) + c3·w.
@@ -142,14 +216,3 @@ pub fn transform(m: &[[f32; 4]; 4], [x, y, z]: [f32; 3], w: f32) -> [f32; 4] {
 pub fn xyz([x, y, z, _]: [f32; 4]) -> [f32; 3] {
     [x, y, z]
 }
-
-/// What a vertex program puts out: `gl_Position` and its varyings.
-pub type VertexOutput<const N: usize> = ([f32; 4], [f32; N]);
-
-/// A vertex program, called once per vertex.
-pub trait VertexProgram<const N: usize>: Fn(&Attributes) -> VertexOutput<N> + Send + Sync {}
-impl<const N: usize, F: Fn(&Attributes) -> VertexOutput<N> + Send + Sync> VertexProgram<N> for F {}
-
-/// A fragment program, called once per group of fragments: varyings in, linear colour out.
-pub trait FragmentProgram<L, const N: usize>: Fn(&[L; N]) -> Vec3<L> + Send + Sync {}
-impl<L, const N: usize, F: Fn(&[L; N]) -> Vec3<L> + Send + Sync> FragmentProgram<L, N> for F {}

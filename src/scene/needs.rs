@@ -1,6 +1,4 @@
-//! What each shader reads.
-
-use crate::scene::material::Shader;
+//! What a shader can read.
 
 /// What a shader reads besides the position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,20 +18,15 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// What `shader` reads.
-    pub fn of(shader: Shader) -> Self {
-        let nothing = Self::default();
-        let normal = Self { normal: true, ..nothing };
-        let relief = Self { normal: true, tangent: true, uv: true, height_map: true, ..nothing };
-        match shader {
-            Shader::Wireframe => nothing,
-            Shader::Normal | Shader::Diffuse | Shader::Phong => normal,
-            Shader::Texture => Self { uv: true, texture: true, ..nothing },
-            Shader::Bump | Shader::Displacement => relief,
-            Shader::Mirror => Self { environment: true, ..normal },
-            Shader::Custom => Self { texture: true, environment: true, ..relief },
-        }
-    }
+    /// Nothing.
+    pub(super) const NOTHING: Self = Self {
+        normal: false,
+        tangent: false,
+        uv: false,
+        texture: false,
+        height_map: false,
+        environment: false,
+    };
 
     /// Each thing a shader can read, with its name and whether it is read.
     pub(super) fn named(self) -> [(&'static str, bool); 6] {

@@ -1,0 +1,117 @@
+//! Tests: every operation of every kind of lanes is that of plain numbers.
+
+use super::{
+    F64, FragmentLanes, Lane, Part, Whole,
+    level::{Level, dispatch},
+};
+
+const SPECIAL: [f32; 11] =
+    [0.0, -0.0, 1.0, -1.5, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e-45, 2.5, -2.5, 1e30];
+
+/// Whole numbers, also those that a cast saturates.
+const WHOLES: [f32; 16] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    255.0,
+    -16_384.0,
+    4_194_303.0,
+    -4_194_305.0,
+    16_777_216.0,
+    3e9,
+    -3e9,
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    7.0,
+    -7.0,
+];
+
+/// Every lane of a value, or NaN of one kind.
+fn lanes<L: Lane>(value: L) -> Vec<f64> {
+    let mut lanes = Vec::new();
+    value.each_part(|_, part| lanes.extend((0..<L::Part as Part>::WIDTH).map(|i| part.lane(i))));
+    assert_eq!(lanes.len(), L::PARTS * <L::Part as Part>::WIDTH);
+    lanes
+}
+
+/// Operations on pairs of special numbers, by lanes and by f32.
+fn operations<L: Lane>(token: L::Token) {
+    for (a, b) in SPECIAL.into_iter().flat_map(|a| SPECIAL.map(|b| (a, b))) {
+        let (x, y) = (L::splat(token, a), L::splat(token, b));
+        let pairs = [
+            (x + y, a + b),
+            (x - y, a - b),
+            (x * y, a * b),
+            (x / y, a / b),
+            (x + b, a + b),
+            (x - b, a - b),
+            (x * b, a * b),
+            (-x, -a),
+            (Lane::sqrt(x), a.sqrt()),
+            (Lane::floor(x), a.floor()),
+            (Lane::abs(x), if a < 0.0 { -a } else { a }),
+            (Lane::max(x, y), if b < a { a } else { b }),
+            (Lane::min(x, y), if a < b { a } else { b }),
+            (x.select_less(y, x, y), if a < b { a } else { b }),
+        ];
+        for (i, (wide, one)) in pairs.into_iter().enumerate() {
+            let one = f64::from(one);
+            let same = |lane: &f64| lane.to_bits() == one.to_bits() || (lane.is_nan() && one.is_nan());
+            assert!(
+                lanes(wide).iter().all(same),
+                "operation {i} of {a} and {b}: {:?} for {one}",
+                lanes(wide)
+            );
+        }
+    }
+}
+
+/// What only a single vector has.
+fn of_parts<P: Part>(token: P::Token) {
+    let from = |i: usize| WHOLES[i % 16];
+    for first in 0..16 {
+        let value = P::from_fn(token, |i| from(i + first));
+        for i in 0..P::WIDTH {
+            #[expect(clippy::cast_possible_truncation, reason = "what is tested")]
+            let cast = from(i + first) as i32;
+            assert_eq!(value.to_whole().lane(i), cast);
+            assert_eq!(value.to_whole().each(|i| i / 2).lane(i), cast / 2);
+            let (low, high) =
+                (Whole::max(value.to_whole().all(-5), value.to_whole()).lane(i), Ord::max(cast, -5));
+            assert_eq!(low, high);
+        }
+        let keys: Vec<u32> = (0..16).map(|i| i % 3).collect();
+        let replaced = value.replace(&keys, 1, P::splat(token, 9.0));
+        for (i, &key) in keys.iter().enumerate().take(P::WIDTH) {
+            let expected = if key == 1 { 9.0 } else { value.lane(i) };
+            assert!(replaced.lane(i) == expected || expected.is_nan());
+        }
+    }
+    let texel = |i: usize| [0.25, 0.5, 0.75, 1.0].map(|c: f32| c + u8::try_from(i).map_or(0.0, f32::from));
+    for (channel, value) in P::transpose(token, texel).into_iter().enumerate() {
+        let mut stored = [0.0; 16];
+        value.store(&mut stored);
+        for (i, stored) in stored.into_iter().enumerate().take(P::WIDTH) {
+            assert_eq!([value.lane(i), f64::from(stored)], [f64::from(texel(i)[channel]); 2]);
+        }
+    }
+    let third = P::narrow(P::double_from_fn(token, |i| [1.0, 3.0][i % 2] / 3.0));
+    let one = P::narrow(P::double(token, 1.0) * P::double(token, 1.0));
+    assert!((0..P::WIDTH).all(|i| one.lane(i) == 1.0 && (third.lane(i) == 1.0) == (i % 2 == 1)));
+}
+
+/// Everything at a level.
+fn all<S: FragmentLanes>(simd: S) {
+    operations::<S::Lanes>(simd);
+    of_parts::<<S::Lanes as Lane>::Part>(simd);
+}
+
+#[test]
+fn every_operation_is_that_of_plain_numbers_at_every_level() {
+    Level::for_each(|_| dispatch!(simd => all(simd)));
+    operations::<f32>(());
+    of_parts::<f32>(());
+    of_parts::<F64>(());
+}

@@ -1,0 +1,28 @@
+//! Handles: the numbers by which a visibility buffer names what is seen.
+
+/// Primitives of a mesh per chunk. Fixed, so that the work is cut alike for any number of threads.
+pub(super) const CHUNK: usize = 2048;
+
+/// Bits of the index of a primitive in its chunk.
+const INDEX_BITS: u32 = 14;
+
+// A chunk must have room for all that clipping makes: of a triangle at most 7.
+const _: () = assert!(7 * CHUNK < 1 << INDEX_BITS);
+
+/// The number of a primitive among those of all chunks, plus one: 0 is nothing.
+pub(super) type Handle = u32;
+
+/// The handle of primitive `index` of chunk `chunk`.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the largest scene has fewer than 2^18 chunks (scene::checks)"
+)]
+pub(super) fn pack(chunk: usize, index: u32) -> Handle {
+    ((chunk as u32) << INDEX_BITS) + index + 1
+}
+
+/// The chunk and index of a handle other than 0.
+pub(super) fn unpack(handle: Handle) -> (usize, usize) {
+    let number = handle - 1;
+    ((number >> INDEX_BITS) as usize, (number & ((1 << INDEX_BITS) - 1)) as usize)
+}

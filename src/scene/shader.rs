@@ -1,0 +1,46 @@
+//! The shaders: a row each.
+
+use super::{json::choice::choices, needs::Needs};
+
+/// Makes [`Shader`] of rows: description, variant, name in scene files, and what the programs read besides
+/// the position (the fields of [`Needs`]).
+macro_rules! shaders {
+    ($($(#[doc = $doc:literal])* $shader:ident = $name:literal reads [$($read:ident),*];)*) => {
+        choices! {
+            /// Which program draws an object (`material.shader`).
+            pub enum Shader {
+                $($(#[doc = $doc])* $shader = $name,)*
+            }
+        }
+
+        impl Needs {
+            /// What `shader` reads.
+            pub fn of(shader: Shader) -> Self {
+                match shader {
+                    $(Shader::$shader => Self { $($read: true,)* ..Self::NOTHING },)*
+                }
+            }
+        }
+    };
+}
+
+shaders! {
+    /// The springs of the cloth as lines; other objects in their flat colour.
+    Wireframe = "wireframe" reads [];
+    /// The direction of the surface as a colour.
+    Normal = "normal" reads [normal];
+    /// Matt, in the light (Lambert's law).
+    Diffuse = "diffuse" reads [normal];
+    /// Matt with a highlight and some light everywhere (Blinn-Phong).
+    Phong = "phong" reads [normal];
+    /// The texture alone, without light.
+    Texture = "texture" reads [uv, texture];
+    /// As `phong`, with the relief of the height map shaded on a smooth surface.
+    Bump = "bump" reads [normal, tangent, uv, height_map];
+    /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too.
+    Displacement = "displacement" reads [normal, tangent, uv, height_map];
+    /// The environment, mirrored.
+    Mirror = "mirror" reads [normal, environment];
+    /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together.
+    Custom = "custom" reads [normal, tangent, uv, texture, height_map, environment];
+}
