@@ -83,7 +83,7 @@ fn nearly_number(path: &str, value: &str) -> Option<String> {
         let (number, rest) = value.split_at(end);
         Some((number.trim().parse::<f64>().ok().filter(|number| number.is_finite())?, rest.trim()))
     })?;
-    if serde_json::from_str::<serde_json::Value>(value).is_ok() {
+    if serde_json::from_str::<serde::de::IgnoredAny>(value).is_ok() {
         return None;
     }
     match rest {

@@ -25,22 +25,26 @@ macro_rules! shaders {
 }
 
 shaders! {
-    /// The springs of the cloth as lines; other objects in their flat colour.
+    /// The springs of the cloth as lines; other objects flat. Reads `color`.
     Wireframe = "wireframe" reads [];
     /// The direction of the surface as a colour.
     Normal = "normal" reads [normal];
-    /// Matt, in the light (Lambert's law).
+    /// Matt, in the light (Lambert's law). Reads `color` and `kd`.
     Diffuse = "diffuse" reads [normal];
-    /// Matt with a highlight and some light everywhere (Blinn-Phong).
+    /// Matt with a highlight and some light everywhere (Blinn-Phong). Reads `color`, `ka`, `kd`, `ks` and
+    /// `shininess`.
     Phong = "phong" reads [normal];
-    /// The texture alone, without light.
+    /// The texture alone, without light. Reads `texture`.
     Texture = "texture" reads [uv, texture];
-    /// As `phong`, with the relief of the height map shaded on a smooth surface.
+    /// As `phong`, with the relief of the height map shaded on a smooth surface. Also reads `height_map`,
+    /// `normal_scaling` and `height_scaling`.
     Bump = "bump" reads [normal, tangent, uv, height_map];
-    /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too.
+    /// As `bump`, with the surface itself moved along its normal, so that the outline shows it too. Reads the
+    /// same keys.
     Displacement = "displacement" reads [normal, tangent, uv, height_map];
-    /// The environment, mirrored.
+    /// The environment, mirrored. Reads `environment`.
     Mirror = "mirror" reads [normal, environment];
-    /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together.
+    /// A glossy ceramic: displacement, texture, tinted highlight and mirror image together. Reads the keys of
+    /// `displacement` except `color`, and `texture`, `environment`, `km` and `light.color`.
     Custom = "custom" reads [normal, tangent, uv, texture, height_map, environment];
 }

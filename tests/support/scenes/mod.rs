@@ -2,10 +2,7 @@
 
 #![allow(dead_code, reason = "each test uses some of these")]
 
-use drape::scene::{
-    Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Plane,
-    Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
-};
+use drape::scene::{Cloth, Collider, Material, Orientation, Plane, Render, Scene, Sphere, Vec3};
 
 /// Every stock scene by name.
 pub(crate) fn stock() -> [(&'static str, Scene); 5] {
@@ -107,63 +104,10 @@ pub(crate) fn ball() -> Sphere {
 
 /// A scene of `cloth` and nothing else.
 pub(crate) fn with_cloth(cloth: Cloth) -> Scene {
-    Scene {
-        cloth: Some(cloth),
-        colliders: Vec::new(),
-        sim: Sim {
-            fps: 90.0,
-            steps_per_frame: 30,
-            gravity: Vec3::new(0.0, -9.8, 0.0),
-            integrator: Integrator::Verlet,
-            iterations: 1,
-            tolerance: 1e-4,
-            precision: Precision::F64,
-            start: Start::Report,
-            damping: Damping::PerStep,
-            stretch_limit: Some(0.1),
-            stretch_passes: 1,
-            self_collision: SelfCollision::SameBox,
-            contact: Contact::Report,
-        },
-        camera: Camera {
-            target: None,
-            distance: None,
-            polar: 90.0,
-            azimuth: 0.0,
-            hfov: 50.0,
-            vfov: 35.0,
-            near: 0.01,
-            far: 10_000.0,
-        },
-        light: Light {
-            position: Vec3::new(0.5, 2.0, 2.0),
-            intensity: Vec3::repeat(3.0),
-            color: Vec3::repeat(1.0),
-        },
-        render: Render {
-            size: [1024, 800],
-            samples: 1,
-            background: Vec3::repeat(0.25),
-            time: 0.0,
-            filter: Filter::Bilinear,
-        },
-    }
+    Scene { cloth: Some(cloth), render: Render { time: 0.0, ..Render::default() }, ..Scene::default() }
 }
 
 /// Any material: the simulation does not read it.
 pub(crate) fn material() -> Material {
-    Material {
-        shader: Shader::Phong,
-        color: Vec3::repeat(1.0),
-        ka: 0.1,
-        kd: 1.0,
-        ks: 0.5,
-        shininess: 32.0,
-        km: 0.5,
-        normal_scaling: 2.0,
-        height_scaling: 0.1,
-        texture: String::new(),
-        height_map: String::new(),
-        environment: String::new(),
-    }
+    Material { kd: 1.0, ks: 0.5, shininess: 32.0, km: 0.5, ..Material::default() }
 }
