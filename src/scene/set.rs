@@ -83,7 +83,8 @@ fn nearly_number(path: &str, value: &str) -> Option<String> {
         let (number, rest) = value.split_at(end);
         Some((number.trim().parse::<f64>().ok().filter(|number| number.is_finite())?, rest.trim()))
     })?;
-    if serde_json::from_str::<serde_json::Value>(value).is_ok() {
+    let is_infinite = value.trim().parse::<f64>().is_ok_and(f64::is_infinite);
+    if is_infinite || serde_json::from_str::<serde_json::Value>(value).is_ok() {
         return None;
     }
     match rest {
@@ -269,7 +270,7 @@ mod tests {
             Some("write the number alone, `--set cloth.ks=0.5`, or text in quotes")
         );
         assert_eq!(help("1,2,3").as_deref(), Some("a list stands in brackets: `--set 'cloth.ks=[1,2,3]'`"));
-        for fine in ["5", "-5e3", " 5 ", "[5]", "{}", "\"5k\"", ""] {
+        for fine in ["5", "-5e3", " 5 ", "1e999", "[5]", "{}", "\"5k\"", ""] {
             assert_eq!(help(fine), None, "{fine}");
         }
     }
