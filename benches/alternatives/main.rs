@@ -52,7 +52,7 @@ fn tables(threads: &str, rounds: usize) {
 fn scene(name: &str, sets: &[&str]) -> Scene {
     let path = repository::path(&format!("scenes/{name}.json"));
     let sets = sets.iter().map(|set| (*set).to_owned()).collect();
-    load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene
+    load(&path, &Overrides { sets, ..Overrides::default() }).unwrap().scene
 }
 
 /// Turns that are not counted: the driver compiles, memory is touched for the first time.

@@ -62,7 +62,7 @@ pub(crate) enum Command {
     Export(export::Args),
     /// Compare two pictures, or the pictures of two folders
     Compare(compare::Args),
-    /// Compare the positions of another program with the method, and find the mistake that explains the difference
+    /// Compare positions computed by another program with ours, and find the mistake that explains a difference
     ComparePositions(compare_positions::Args),
     /// Measure cost against accuracy: integrators and steps against a reference run, and ways of drawing
     ///

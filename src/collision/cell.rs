@@ -47,10 +47,16 @@ impl<'a> Cell<'a> {
         Self { members, rule, x: px, y: py, z: pz }
     }
 
-    /// Whether two members may be too close.
+    /// Whether two members may be too close. A loop, because `any` is not sure to be inlined, and then
+    /// not compiled for the vectors of the CPU.
     #[inline(always)]
     pub(super) fn any_close(&self) -> bool {
-        (0..self.members.len()).any(|at| self.is_close_to_later(at))
+        for at in 0..self.members.len() {
+            if self.is_close_to_later(at) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Moves the unpinned members apart, one after the other; how many moved.
@@ -69,9 +75,16 @@ impl<'a> Cell<'a> {
     /// Whether the member `at` may be too close to one after it.
     #[inline(always)]
     fn is_close_to_later(&self, at: usize) -> bool {
-        let within =
-            |squares: [f64; LANES]| squares.iter().fold(false, |any, &s| any | (s <= self.rule.reach));
-        self.squares(at, at + 1).any(within)
+        for squares in self.squares(at, at + 1) {
+            let mut any = false;
+            for square in squares {
+                any |= square <= self.rule.reach;
+            }
+            if any {
+                return true;
+            }
+        }
+        false
     }
 
     /// Where the member `at` belongs; `None` when it may stay.

@@ -6,19 +6,22 @@ use std::path::{Path, PathBuf};
 
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
-use super::json::node::Node;
+use super::json::merge::merge;
+use super::json::node::{Json, Node};
 use super::json::object;
 use super::json::parse::parse;
 use super::json::span::Span;
 use super::json::suggest::nearest;
 use super::keys::keys;
-use super::{Scene, patch, stock, validate};
+use super::set::{self, Set};
+use super::{Scene, stock, validate};
 use crate::error::{Diagnostic, Error, Kind, Result};
 
 /// Largest scene or patch file, in bytes.
 pub const MAX_FILE: u64 = 16 << 20;
 
-/// Changes to a scene from outside its file: all patches in order, then all sets in order.
+/// Changes to a scene from outside its file: all patches in order, then all sets, then all flags. They are made
+/// before the scene is validated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
     /// Files with a JSON merge patch each (RFC 7396). There `null` removes a key.
@@ -26,6 +29,18 @@ pub struct Overrides {
     /// `PATH=JSON` each, such as `cloth.ks=500`, `sphere.0.radius=0.1` or `material.shader=bump`
     /// (a bare word is text). The value replaces what is there; `null` is a value like any other.
     pub sets: Vec<String>,
+    /// What flags of a program change.
+    pub flags: Vec<Flag>,
+}
+
+/// A change that a flag of a program makes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Flag {
+    /// How the program calls it, such as `--size`; errors name it.
+    pub name: &'static str,
+    /// `PATH=JSON`, as a set. `*` after the key of an object stands for every such object that there is:
+    /// `sphere.*.resolution.0=16`.
+    pub set: String,
 }
 
 /// A valid scene and what is doubtful in it.
@@ -87,20 +102,61 @@ fn assemble(
     for path in &overrides.patches {
         patches.push(file(&mut diagnostics, &path.display().to_string(), &read(path)?));
     }
-    let mut sets = Vec::new();
+    let (mut sets, mut flags) = (Vec::new(), Vec::new());
     for argument in &overrides.sets {
-        sets.push(patch::read_set(&mut diagnostics, argument)?);
+        sets.push(set::read_set(&mut diagnostics, "--set", argument)?);
     }
-    let texts = document.zip(patches.into_iter().collect::<Option<Vec<_>>>());
-    let scene =
-        texts.zip(sets.into_iter().collect::<Option<Vec<_>>>()).and_then(|((document, patches), sets)| {
-            let mut document = patches.into_iter().fold(document, patch::merge);
-            sets.into_iter().for_each(|set| patch::apply(&mut diagnostics, &mut document, set));
-            read_scene(&mut diagnostics, &document)
-        });
+    for flag in &overrides.flags {
+        flags.push(set::read_set(&mut diagnostics, flag.name, &flag.set)?);
+    }
+    let scene = changed(&mut diagnostics, document, patches, sets, flags)
+        .and_then(|document| read_scene(&mut diagnostics, &document));
     let warnings = diagnostics.finish()?;
     let scene = scene.ok_or_else(|| Error::new(Kind::Internal, "no scene and no error"))?;
     Ok(Loaded { scene, warnings })
+}
+
+/// The document with all changes; nothing if a text was not JSON.
+fn changed(
+    diagnostics: &mut Diagnostics,
+    document: Option<Node>,
+    patches: Vec<Option<Node>>,
+    sets: Vec<Option<Set>>,
+    flags: Vec<Option<Set>>,
+) -> Option<Node> {
+    let (patches, sets) = (all(patches)?, all(sets)?);
+    let mut document = patches.into_iter().fold(document?, merge);
+    sets.into_iter().for_each(|set| set::apply(diagnostics, &mut document, set));
+    all(flags)?.into_iter().for_each(|flag| set::apply_to_each(diagnostics, &mut document, flag));
+    Some(document)
+}
+
+fn all<T>(values: Vec<Option<T>>) -> Option<Vec<T>> {
+    values.into_iter().collect()
+}
+
+/// Checks that `json` is allowed as the value of the key at `path`, such as `render.samples`. Whether it
+/// fits the other keys of a scene is checked when one is loaded.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub fn check_value(path: &str, json: &str) -> Result<(), String> {
+    let mut diagnostics = Diagnostics::default();
+    let set = set::read_set(&mut diagnostics, "--set", &format!("{path}={json}"));
+    if let Some(set) = set.map_err(|error| error.message)? {
+        let mut document = Node { span: Span::NOWHERE, json: Json::Object(Vec::new()) };
+        set::apply(&mut diagnostics, &mut document, set);
+        object::read(&mut diagnostics, &document, keys, Scene::read);
+    }
+    match diagnostics.finish() {
+        Ok(_) => Ok(()),
+        // Keys that are missing beside it have errors, too.
+        Err(error) => {
+            let of_value = |found: &Diagnostic| found.code == "scene::syntax" || found.key.starts_with(path);
+            let own = error.diagnostics.into_iter().find(of_value);
+            own.map_or(Ok(()), |found| Err(found.message))
+        }
+    }
 }
 
 fn read_scene(diagnostics: &mut Diagnostics, document: &Node) -> Option<Scene> {

@@ -16,7 +16,7 @@ mod light;
 mod load;
 mod material;
 mod needs;
-mod patch;
+mod set;
 mod plan;
 mod render;
 mod shader;
@@ -34,7 +34,7 @@ pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Spher
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
-pub use load::{Loaded, MAX_FILE, Overrides, load, load_stock, load_text};
+pub use load::{Flag, Loaded, MAX_FILE, Overrides, check_value, load, load_stock, load_text};
 pub use material::Material;
 pub use needs::Needs;
 pub use plan::{Images, Item, plan};

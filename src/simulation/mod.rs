@@ -2,8 +2,11 @@
 
 mod blow_up;
 mod checks;
+#[cfg(test)]
+mod levels;
 mod ledger_recorder;
 mod observer;
+mod observers;
 mod phase;
 mod state;
 mod step;
@@ -14,6 +17,7 @@ pub use timing::Timings;
 
 use blow_up::Replay;
 use ledger_recorder::LedgerRecorder;
+use observers::Observers;
 use state::State;
 use timing::Timing;
 
@@ -32,8 +36,7 @@ pub struct Simulation {
     steps_per_second: f64,
     steps: u64,
     cloth: Option<State>,
-    /// The observers of each step: what was counted, and what is measured only when asked for.
-    observers: (Counters, Option<Timing>, Option<LedgerRecorder>),
+    observers: Observers,
     no_points: Points,
     guarded: bool,
 }
@@ -72,7 +75,7 @@ impl Simulation {
             steps_per_second: scene.sim.fps * f64::from(scene.sim.steps_per_frame),
             steps: 0,
             cloth: State::new(scene, start)?,
-            observers: (Counters::default(), None, None),
+            observers: Observers::default(),
             no_points: Points::default(),
             guarded: true,
         })
@@ -104,7 +107,7 @@ impl Simulation {
     pub fn step(&mut self) {
         match &mut self.cloth {
             Some(cloth) => cloth.step(&mut self.observers),
-            None => self.observers.0.steps += 1,
+            None => self.observers.counters.steps += 1,
         }
         self.steps += 1;
     }
@@ -119,7 +122,7 @@ impl Simulation {
     pub fn advance_frame(&mut self) -> Result<()> {
         let before = self.steps;
         self.cloth.iter_mut().for_each(State::note_frame_start);
-        self.observers.2.iter_mut().for_each(LedgerRecorder::begin_frame);
+        self.observers.ledger.iter_mut().for_each(LedgerRecorder::begin_frame);
         let points = self.positions().len();
         chunks::with_threads(points, || (0..self.steps_per_frame).for_each(|_| self.step()));
         self.check(before)
@@ -127,7 +130,7 @@ impl Simulation {
 
     /// The checks of a frame that began after so many `steps`.
     fn check(&self, steps: u64) -> Result<()> {
-        let Self { steps_per_frame, guarded, observers: (.., ledger), .. } = self;
+        let Self { steps_per_frame, guarded, observers: Observers { ledger, .. }, .. } = self;
         let Some(cloth) = &self.cloth else { return Ok(()) };
         if cloth.is_in_range() && (!guarded || cloth.is_within_energy_bound(ledger.as_ref())) {
             return Ok(());
@@ -202,13 +205,13 @@ impl Simulation {
     /// [`crate::error::Kind::Scene`] when the ledger does not fit in memory.
     pub fn record_ledger(&mut self) -> Result<()> {
         let recorder = self.cloth.as_ref().map(|cloth| LedgerRecorder::new(cloth.x.len()));
-        self.observers.2 = recorder.transpose()?;
+        self.observers.ledger = recorder.transpose()?;
         Ok(())
     }
 
     /// The ledger since [`Simulation::record_ledger`], if it was called and there is a cloth.
     pub fn ledger(&self) -> Option<Ledger> {
-        self.observers.2.as_ref().map(|recorder| recorder.ledger)
+        self.observers.ledger.as_ref().map(|recorder| recorder.ledger)
     }
 
     /// A hash over the bits of the positions, as the arrays x, y and z, and then of the last positions.
@@ -225,16 +228,16 @@ impl Simulation {
 
     /// What was done since the start.
     pub fn counters(&self) -> Counters {
-        self.observers.0
+        self.observers.counters
     }
 
     /// Measures from now on how long each phase takes.
     pub fn record_timings(&mut self) {
-        self.observers.1 = Some(Timing::default());
+        self.observers.timing = Some(Timing::default());
     }
 
     /// How long each phase took since [`Simulation::record_timings`], if it was called.
     pub fn timings(&self) -> Option<Timings> {
-        self.observers.1.map(|timing| timing.timings)
+        self.observers.timing.map(|timing| timing.timings)
     }
 }

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 fn stock(name: &str, sets: &[&str]) -> Result<Scene> {
     let path = crate::repository::path("scenes").join(name);
     let sets = sets.iter().map(|&set| set.to_owned()).collect();
-    load(&path, &Overrides { patches: Vec::new(), sets }).map(|loaded| loaded.scene)
+    load(&path, &Overrides { sets, ..Overrides::default() }).map(|loaded| loaded.scene)
 }
 
 /// A cloth of 12 x 12 points with pinned corners.

@@ -10,7 +10,7 @@ use super::pattern::Pattern;
 use drape::error::{Error, Kind, Result};
 
 /// The formats of one file.
-pub(crate) const FORMATS: [&Format; 3] = [&APNG, &GIF, &MP4];
+pub(crate) const FORMATS: &[&Format] = &[&APNG, &GIF, &MP4];
 
 /// One file, or a file for each picture.
 pub(crate) enum Target {
@@ -45,7 +45,7 @@ impl Target {
     /// [`Kind::Usage`] when no format has its ending, or when a PNG has no place for the number.
     pub(crate) fn parse(path: &Path) -> Result<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let format = FORMATS.into_iter().find(|format| Some(format.ending) == ending.as_deref());
+        let format = FORMATS.iter().copied().find(|format| Some(format.ending) == ending.as_deref());
         let file = format.map(|format| Self::File(path.into(), format));
         let sequence =
             || Some(Self::Sequence(Pattern::parse(path).filter(|_| ending.as_deref() == Some("png"))?));

@@ -1,5 +1,6 @@
 //! Arguments that several commands share.
 
+pub(crate) mod flag;
 pub(crate) mod frames;
 pub(crate) mod render;
 pub(crate) mod scene;

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 
+use super::flag::{flag, help, size, whole};
 use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
 use drape::render::Options;
-use drape::scene::{Collider, Images, MAX_RESOLUTION, Scene, Shader};
+use drape::scene::{ColliderKind, Flag, Images, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
@@ -17,19 +17,17 @@ use drape::texture_source::{ENDINGS, TextureSource};
 pub(crate) struct RenderArgs {
     /// Draw every object with this shader
     #[arg(long, value_name = "NAME", value_parser = shader())]
-    shader: Option<Shader>,
-    /// Width and height of the picture in pixels, each 1 to 16384 (default: the scene's render.size)
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[u32; 2]>,
-    /// Samples per pixel: 1, 4, 8 or 16 (default: the scene's render.samples)
-    #[arg(long, value_name = "N", value_parser = samples)]
-    samples: Option<u32>,
-    /// Latitude count of the mesh of each sphere, 2 to 1000
-    #[arg(short = 'a', value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_RESOLUTION)))]
-    latitudes: Option<u32>,
-    /// Longitude count of the mesh of each sphere, 3 to 1000
-    #[arg(short = 'o', value_name = "N", value_parser = clap::value_parser!(u32).range(3..=i64::from(MAX_RESOLUTION)))]
-    longitudes: Option<u32>,
+    shader: Option<String>,
+    #[arg(long, value_name = "WxH", value_parser = size, help = help("", "render.size"))]
+    size: Option<String>,
+    #[arg(long, value_name = "N", value_parser = whole("render.samples"), help = help("", "render.samples"))]
+    samples: Option<String>,
+    #[arg(short = 'a', value_name = "N", value_parser = whole("sphere.resolution.0"),
+          help = help("Latitude count of the mesh of each sphere", "sphere.resolution"))]
+    latitudes: Option<String>,
+    #[arg(short = 'o', value_name = "N", value_parser = whole("sphere.resolution.1"),
+          help = help("Longitude count of the mesh of each sphere", "sphere.resolution"))]
+    longitudes: Option<String>,
     /// Springs that the wireframe shader draws: structural, shearing, bending, separated by commas (default: those
     /// that the cloth has)
     #[arg(long, value_name = "KINDS", value_parser = springs)]
@@ -48,20 +46,21 @@ pub(crate) fn warn_of_nothing_visible(pictures: &str, ui: &Ui) {
 }
 
 impl RenderArgs {
-    /// Writes the changes into `scene`.
-    pub(crate) fn apply(&self, scene: &mut Scene) {
-        scene.render.size = self.size.unwrap_or(scene.render.size);
-        scene.render.samples = self.samples.unwrap_or(scene.render.samples);
-        for collider in &mut scene.colliders {
-            if let Collider::Sphere(sphere) = collider {
-                let [latitudes, longitudes] = sphere.resolution;
-                sphere.resolution =
-                    [self.latitudes.unwrap_or(latitudes), self.longitudes.unwrap_or(longitudes)];
-            }
-        }
-        if let Some(shader) = self.shader {
-            scene.materials_mut().for_each(|material| material.shader = shader);
-        }
+    /// The changes to a scene.
+    pub(crate) fn flags(&self) -> Vec<Flag> {
+        let one = |name, path, value: &Option<String>| value.as_ref().map(|value| flag(name, path, value));
+        let shader = self.shader.iter().flat_map(|shader| {
+            let of = |key: &str| flag("--shader", &format!("{key}.*.material.shader"), shader);
+            let objects = ["cloth"].into_iter().chain(ColliderKind::ALL.iter().map(|kind| kind.key()));
+            objects.map(of).collect::<Vec<_>>()
+        });
+        let others = [
+            one("--size", "render.size", &self.size),
+            one("--samples", "render.samples", &self.samples),
+            one("-a", "sphere.*.resolution.0", &self.latitudes),
+            one("-o", "sphere.*.resolution.1", &self.longitudes),
+        ];
+        shader.chain(others.into_iter().flatten()).collect()
     }
 
     /// Where textures are read from.
@@ -88,26 +87,10 @@ impl RenderArgs {
     }
 }
 
-fn shader() -> impl TypedValueParser<Value = Shader> {
-    PossibleValuesParser::new(Shader::NAMES.iter().map(|(name, _)| *name)).try_map(|name| {
-        let found = Shader::NAMES.iter().find(|(other, _)| *other == name);
-        found.map(|(_, shader)| *shader).ok_or("there is no such shader")
-    })
-}
-
-/// Parses a width and a height, each 1 to 16384 pixels.
-pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
-    let side = |digits: &str| digits.parse().ok().filter(|pixels| (1..=16_384).contains(pixels));
-    let read = || {
-        let (width, height) = text.split_once('x')?;
-        Some([side(width)?, side(height)?])
-    };
-    read().ok_or_else(|| "expected WxH, such as 1024x800, each from 1 to 16384".to_owned())
-}
-
-fn samples(text: &str) -> Result<u32, String> {
-    let count = text.parse().ok().filter(|count| [1, 4, 8, 16].contains(count));
-    count.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
+fn shader() -> PossibleValuesParser {
+    PossibleValuesParser::new(
+        Shader::NAMES.iter().map(|(name, shader)| PossibleValue::new(*name).help(shader.meaning())),
+    )
 }
 
 fn springs(text: &str) -> Result<SpringKinds, String> {
@@ -126,19 +109,6 @@ fn springs(text: &str) -> Result<SpringKinds, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes_and_samples_have_bounds() {
-        assert_eq!(size("1024x800"), Ok([1024, 800]));
-        assert_eq!(size("1x16384"), Ok([1, 16384]));
-        for text in ["", "x", "0x1", "1x0", "16385x1", "1024", "-1x1", "1x1x1", "1 x 1", "99999999999x1"] {
-            assert!(size(text).is_err(), "{text}");
-        }
-        for text in ["0", "2", "3", "32", "-4", "4.0"] {
-            assert!(samples(text).is_err(), "{text}");
-        }
-        assert_eq!(samples("16"), Ok(16));
-    }
 
     #[test]
     fn spring_kinds_are_a_list() {

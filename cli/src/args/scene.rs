@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use super::flag::seconds;
 use crate::run::advance::Until;
 use crate::session::Session;
 use drape::error::Result;
-use drape::scene::{self, Overrides, Scene};
+use drape::scene::{self, Flag, Overrides, Scene};
 
 /// A scene file and changes to it.
 #[derive(clap::Args)]
@@ -31,7 +32,12 @@ pub(crate) struct Changes {
 impl SceneArgs {
     /// Reads the scene and prints its warnings.
     pub(crate) fn load(&self, session: &Session) -> Result<Scene> {
-        let loaded = scene::load(&self.path, &self.changes.overrides())?;
+        self.load_with_flags(&[], session)
+    }
+
+    /// The scene with the changes of `flags`; its warnings are told.
+    pub(crate) fn load_with_flags(&self, flags: &[Flag], session: &Session) -> Result<Scene> {
+        let loaded = scene::load(&self.path, &self.changes.with(flags))?;
         loaded.warnings.iter().for_each(|warning| session.ui.warn(warning));
         Ok(loaded.scene)
     }
@@ -48,9 +54,9 @@ impl SceneArgs {
         scene::load(&self.path, &overrides).map(|loaded| loaded.scene)
     }
 
-    /// Reads a scene file that is built into the program, by its path in the repository.
-    pub(crate) fn load_stock(&self) -> Result<Scene> {
-        scene::load_stock(&self.path, &self.changes.overrides()).map(|loaded| loaded.scene)
+    /// The scene of the files built into the program, called as they are in the repository, with the changes of `flags`.
+    pub(crate) fn load_stock(&self, flags: &[Flag]) -> Result<Scene> {
+        scene::load_stock(&self.path, &self.changes.with(flags)).map(|loaded| loaded.scene)
     }
 
     /// Every file that [`SceneArgs::load`] reads.
@@ -62,7 +68,12 @@ impl SceneArgs {
 impl Changes {
     /// The changes as the loader takes them.
     pub(crate) fn overrides(&self) -> Overrides {
-        Overrides { patches: self.patches.clone(), sets: self.sets.clone() }
+        self.with(&[])
+    }
+
+    /// The changes, and then those of `flags`.
+    fn with(&self, flags: &[Flag]) -> Overrides {
+        Overrides { patches: self.patches.clone(), sets: self.sets.clone(), flags: flags.to_vec() }
     }
 }
 
@@ -112,10 +123,4 @@ pub(crate) fn frame_at(time: Option<f64>, scene: &Scene) -> u64 {
     )]
     let frame = frame.round() as u64;
     frame
-}
-
-/// Parses a time in seconds, with the bounds of `render.time`.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|seconds| (0.0..=1e6).contains(seconds));
-    number.ok_or_else(|| "expected a number of seconds from 0 to 1000000".to_owned())
 }

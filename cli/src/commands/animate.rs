@@ -11,9 +11,10 @@ use crate::animation::pipeline::{Drawn, Pipeline};
 use crate::animation::schedule::FrameSchedule;
 use crate::animation::sequence::Sequence;
 use crate::animation::target::{self, Target};
+use crate::args::flag::seconds;
 use crate::args::frames::Frames;
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
-use crate::args::scene::{SceneArgs, StabilityArgs, frame_at, seconds};
+use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start;
 use crate::session::Session;
 use crate::session::files::outputs;
@@ -60,8 +61,7 @@ struct Summary {
 
 /// Simulates, draws and encodes at the same time.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let mut scene = args.scene.load(session)?;
-    args.render.apply(&mut scene);
+    let scene = args.scene.load_with_flags(&args.render.flags(), session)?;
     let target = Target::parse(&args.out)?;
     let [width, height] = scene.render.size;
     let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)? };

@@ -1,4 +1,4 @@
-//! `drape compare-positions`: where the positions of another program differ from ours, and why.
+//! `drape compare-positions`: where positions computed by another program differ from ours, and why.
 
 use std::path::PathBuf;
 
@@ -13,22 +13,22 @@ use drape::scene::Scene;
 use drape::simulation::Simulation;
 use drape_lab::grader::{self, Case, Comparison, Difference, Ours};
 
-/// What `compare-positions` takes.
+/// The arguments of `compare-positions`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The other program's positions, x y z of each point, row by row: f64 little-endian, or text with 17
-    /// digits (%.17g); several states one after the other
+    /// The positions of the other program: x y z of each point, row by row, as f64 little-endian or as text with 17
+    /// digits (%.17g); one state, or several one after the other
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The frame of the one state in the file (default: that of the scene's render.time)
+    /// The frame of the state in the file, if there is one state (default: that of the scene's render.time)
     #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u64).range(..u64::MAX))]
     frame: Option<u64>,
-    /// The frames of the states in the file, from A up to, without, B (default: found by their number)
+    /// The frames of the states in the file, from A to B, without B (default: derived from the number of states)
     #[arg(long, value_name = "A..B")]
     frames: Option<Frames>,
-    /// Largest accepted distance between two points, in metres; 0 asks for equal bits
+    /// Accept distances of up to this many metres between two points; 0 requires equal bits
     #[arg(long, value_name = "M", default_value_t = 0.0, value_parser = distance)]
     tolerance: f64,
     #[command(flatten)]
@@ -39,7 +39,10 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let Some(cloth) = &scene.cloth else {
-        return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there are no positions"));
+        return Err(Error::new(
+            Kind::Nothing,
+            "the scene has no cloth, so there are no positions to compare",
+        ));
     };
     let theirs = grader::read(&args.file, [cloth.num_width_points, cloth.num_height_points])?;
     let first_frame = args.first_frame(theirs.len(), &scene)?;
@@ -48,7 +51,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let plain = Simulation::new(&scene)?;
     let start = grader::start_of(&theirs[0], plain.positions(), cloth).filter(|_| first_frame == 0);
     if start.is_some() {
-        session.ui.note("the cloth starts at random depths: ours starts from those of the file");
+        session.ui.note("the cloth starts at random depths; those of the file are used");
     }
     let ours = args.simulate(&scene, start.as_ref(), first_frame, theirs.len(), session)?;
     let last_frame = frame_at(None, &scene).max(first_frame + theirs.len() as u64);
@@ -64,8 +67,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
-    /// The states of the method at `count` frames from `first_frame` on, with the points at `start` at first, if
-    /// that is given.
+    /// The states of the method at `count` frames from `first_frame` on, started with the points at `start` if
+    /// they are given.
     fn simulate(
         &self,
         scene: &Scene,
@@ -89,8 +92,8 @@ impl Args {
         let frames = match (&self.frames, self.frame) {
             (Some(frames), _) => frames.0.clone(),
             (None, Some(frame)) => frame..frame + 1,
-            // One state is the end, as `simulate --positions` writes it; as many as there are frames
-            // leave out the start.
+            // One state is the last frame, as `simulate --positions` writes it; as many states as frames are
+            // all frames but the start.
             (None, None) => match frame_at(None, scene) {
                 end if count == 1 => end..end + 1,
                 end if count == end => 1..count + 1,
@@ -101,8 +104,8 @@ impl Args {
             return Ok(frames.start);
         }
         let message =
-            format!("`{}` holds {count} states, not {}", self.file.display(), frames.end - frames.start);
-        Err(Error::new(Kind::Usage, message).with_help("--frames A..B says which frames they are"))
+            format!("`{}` contains {count} states, not {}", self.file.display(), frames.end - frames.start);
+        Err(Error::new(Kind::Usage, message).with_help("give the frames of the states with --frames A..B"))
     }
 }
 
@@ -111,11 +114,12 @@ fn result(comparison: &Comparison, tolerance: f64) -> Result<()> {
     let Some(Difference { frame, .. }) = comparison.difference else { return Ok(()) };
     let beyond = if tolerance > 0.0 { "differ by more than the tolerance" } else { "are not equal" };
     let message = format!("the positions {beyond} from frame {frame} on");
-    Err(Error::new(Kind::Difference, message).with_help("--tolerance 1e-6 ignores differences of rounding"))
+    Err(Error::new(Kind::Difference, message)
+        .with_help("--tolerance 1e-6 accepts differences that come from rounding"))
 }
 
-/// Reads a distance that is not negative.
+/// Parses a distance that is not negative.
 fn distance(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|metres: &f64| metres.is_finite() && *metres >= 0.0);
-    number.ok_or_else(|| "a distance is a number of metres, 0 or above".to_owned())
+    number.ok_or_else(|| "expected a number of metres, 0 or above".to_owned())
 }

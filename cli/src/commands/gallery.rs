@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::args::render::size;
+use crate::args::flag::{flag, size};
 use crate::commands::render;
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -12,6 +12,7 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
+use drape::scene::Flag;
 use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
 use drape_lab::gallery::table::{Picture, parts_called};
@@ -25,13 +26,13 @@ pub(crate) struct Args {
     /// The folder for the pictures and index.html
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
-    /// Draw only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
+    /// Draw and show only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
     /// repeatable (default: all 51 figures, in 56 pictures: five figures have a second picture beside them)
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Width and height of the pictures in pixels (default: the report's 1024x800)
     #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<[u32; 2]>,
+    size: Option<String>,
     /// Write only the pictures: no page, and no energy ledger, which takes three quarters of the time
     #[arg(long)]
     pictures: bool,
@@ -77,9 +78,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 
 impl Args {
     fn shot(&self, picture: &Picture) -> Result<Shot> {
-        let mut shot = read(picture)?;
-        shot.scene.render.size = self.size.unwrap_or(shot.scene.render.size);
-        Ok(shot)
+        let size = self.size.as_ref().map(|size| flag("--size", "render.size", size));
+        read(picture, size)
     }
 
     fn finish(
@@ -100,11 +100,11 @@ impl Args {
 }
 
 /// What the command line makes of a picture's command, a `drape render` of built-in files.
-fn read(picture: &Picture) -> Result<Shot> {
+fn read(picture: &Picture, size: Option<Flag>) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
     let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
-    let mut scene = render.scene.load_stock()?;
-    render.render.apply(&mut scene);
+    let flags: Vec<Flag> = render.render.flags().into_iter().chain(size).collect();
+    let scene = render.scene.load_stock(&flags)?;
     let until = render.moment.until(&scene);
     if until.rest {
         return Err(wrong("its moment is known only at the end".to_owned()));
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn the_commands_of_unstable_cloths_alone_allow_it() {
         for picture in pictures() {
-            let shot = read(&picture).unwrap();
+            let shot = read(&picture, None).unwrap();
             let unstable = shot.scene.cloth.as_ref().is_some_and(|cloth| {
                 shot.frame > 0 && Stability::new(cloth, &shot.scene.sim).unwrap().is_unstable_at_rest()
             });
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn every_picture_has_the_size_of_the_report() {
         for picture in pictures() {
-            assert_eq!(read(&picture).unwrap().scene.render.size, [1024, 800], "{}", picture.name);
+            assert_eq!(read(&picture, None).unwrap().scene.render.size, [1024, 800], "{}", picture.name);
         }
     }
 }

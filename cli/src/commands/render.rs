@@ -64,8 +64,7 @@ struct Summary {
 
 /// Simulates, draws, writes.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let mut scene = args.scene.load(session)?;
-    args.render.apply(&mut scene);
+    let scene = args.scene.load_with_flags(&args.render.flags(), session)?;
     let until = args.moment.until(&scene);
     let path = args.picture_path()?;
     args.check_outputs(&path, &scene, session)?;

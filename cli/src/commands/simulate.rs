@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at, seconds};
+use crate::args::flag::seconds;
+use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::run::table::Table;

@@ -40,7 +40,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "RANGE", value_parser = Values::parse)]
     steps: Option<Values>,
     /// Simulated time of each run, in seconds (default: 0.5; --quick: 0.2)
-    #[arg(long, value_name = "S", value_parser = crate::args::scene::seconds)]
+    #[arg(long, value_name = "S", value_parser = crate::args::flag::seconds)]
     time: Option<f64>,
     /// A coarse map of shorter runs: half a minute of processor time for scenes/pinned2.json instead of three
     /// minutes

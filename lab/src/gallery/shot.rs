@@ -191,7 +191,7 @@ mod tests {
 
     fn shot(scene: &str, sets: &[&str], frame: u64) -> Shot {
         let sets = sets.iter().map(ToString::to_string).collect();
-        let overrides = Overrides { patches: Vec::new(), sets };
+        let overrides = Overrides { sets, ..Overrides::default() };
         let scene = load_stock(Path::new(scene), &overrides).unwrap().scene;
         Shot { scene, options: Options::default(), frame, allow_unstable: false }
     }

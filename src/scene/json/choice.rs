@@ -8,18 +8,15 @@ use super::node::Json;
 use super::rule::{At, Rule};
 use super::scalar::whole;
 use super::suggest::did_you_mean;
-use super::text::{alternatives, paragraph};
+use super::text::alternatives;
 
 /// An enum made by [`choices`].
 pub(crate) trait Named: Copy + PartialEq + 'static {
-    /// Every variant with its name and the lines of its documentation.
-    const ROWS: &'static [(&'static str, Self, &'static [&'static str])];
+    /// Every variant with its name.
+    const ROWS: &'static [(&'static str, Self)];
 
-    /// What the variants stand for, a sentence or two each.
-    fn glossary() -> String {
-        let entry = |(name, _, doc): &(&str, Self, &[&str])| format!("`{name}`: {}", paragraph(doc));
-        Self::ROWS.iter().map(entry).collect::<Vec<_>>().join(" ")
-    }
+    /// What the variant means, in a sentence or two for users.
+    fn meaning_of(self) -> String;
 }
 
 /// Makes an enum of which each variant has a name and a description, so that none can be forgotten.
@@ -46,11 +43,21 @@ macro_rules! choices {
                     $(Self::$variant => $name,)*
                 }
             }
+
+            /// What this variant means, in a sentence or two for users.
+            pub fn meaning(self) -> String {
+                $crate::scene::json::text::paragraph(match self {
+                    $(Self::$variant => &[$($doc),*],)*
+                })
+            }
         }
 
         impl $crate::scene::json::choice::Named for $enum {
-            const ROWS: &'static [(&'static str, Self, &'static [&'static str])] =
-                &[$(($name, Self::$variant, &[$($doc),*])),*];
+            const ROWS: &'static [(&'static str, Self)] = Self::NAMES;
+
+            fn meaning_of(self) -> String {
+                self.meaning()
+            }
         }
     };
 }
@@ -68,32 +75,32 @@ impl<T: Named> Rule for Choice<T> {
     type Value = T;
 
     fn words(&self) -> String {
-        alternatives(T::ROWS.iter().map(|(name, ..)| format!("\"{name}\"")))
+        alternatives(T::ROWS.iter().map(|(name, _)| format!("\"{name}\"")))
     }
 
     fn read(&self, at: &mut At) -> Option<T> {
         let Json::Text(text) = &at.node.json else { return at.wrong_type(&self.words()) };
-        let known = T::ROWS.iter().find(|(name, ..)| name == text);
-        known.map(|(_, value, _)| *value).or_else(|| {
-            let help = did_you_mean(text, T::ROWS.iter().map(|(name, ..)| *name)).unwrap_or_default();
+        let known = T::ROWS.iter().find(|(name, _)| name == text);
+        known.map(|(_, value)| *value).or_else(|| {
+            let help = did_you_mean(text, T::ROWS.iter().map(|(name, _)| *name)).unwrap_or_default();
             at.not_allowed("scene::unknown_value", &self.words(), &help)
         })
     }
 
     fn schema(&self) -> Value {
-        json!({ "enum": T::ROWS.iter().map(|(name, ..)| *name).collect::<Vec<_>>() })
+        json!({ "enum": T::ROWS.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
     }
 
     fn json(&self, value: &T) -> Value {
-        json!(T::ROWS.iter().find(|(_, known, _)| known == value).map(|(name, ..)| name))
+        json!(T::ROWS.iter().find(|(_, known)| known == value).map(|(name, _)| name))
     }
 
     fn placeholder(&self) -> T {
         T::ROWS[0].1
     }
 
-    fn glossary(&self) -> String {
-        T::glossary()
+    fn choices(&self) -> Vec<(String, String)> {
+        T::ROWS.iter().map(|(name, value)| ((*name).to_owned(), value.meaning_of())).collect()
     }
 }
 
@@ -109,7 +116,7 @@ impl<T: Named> Rule for Numbered<T> {
     type Value = T;
 
     fn words(&self) -> String {
-        alternatives(T::ROWS.iter().enumerate().map(|(code, (name, ..))| format!("{code} ({name})")))
+        alternatives(T::ROWS.iter().enumerate().map(|(code, (name, _))| format!("{code} ({name})")))
     }
 
     fn read(&self, at: &mut At) -> Option<T> {
@@ -117,7 +124,7 @@ impl<T: Named> Rule for Numbered<T> {
             return at.wrong_type(&format!("the number {}", self.words()));
         };
         let code = whole(value).and_then(|code| usize::try_from(code).ok());
-        let known = code.and_then(|code| T::ROWS.get(code)).map(|(_, value, _)| *value);
+        let known = code.and_then(|code| T::ROWS.get(code)).map(|(_, value)| *value);
         known.or_else(|| at.not_allowed("scene::unknown_value", &self.words(), ""))
     }
 
@@ -126,14 +133,14 @@ impl<T: Named> Rule for Numbered<T> {
     }
 
     fn json(&self, value: &T) -> Value {
-        json!(T::ROWS.iter().position(|(_, known, _)| known == value))
+        json!(T::ROWS.iter().position(|(_, known)| known == value))
     }
 
     fn placeholder(&self) -> T {
         T::ROWS[0].1
     }
 
-    fn glossary(&self) -> String {
-        T::glossary()
+    fn choices(&self) -> Vec<(String, String)> {
+        T::ROWS.iter().enumerate().map(|(code, (_, value))| (code.to_string(), value.meaning_of())).collect()
     }
 }

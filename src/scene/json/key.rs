@@ -43,6 +43,8 @@ pub enum Shape {
     Value {
         /// What is allowed, in words that complete "it must be".
         rule: String,
+        /// The values to choose from, each with its meaning; none if it is no choice.
+        choices: Vec<(String, String)>,
         /// The value that stands for one that is left out; none if it must be given, or is that of
         /// another object.
         default: Option<Value>,
@@ -72,6 +74,17 @@ impl Key {
         }
     }
 
+    /// Its meaning, followed by those of the values to choose from.
+    pub fn full_meaning(&self) -> String {
+        let entry = |(value, meaning): &(String, String)| format!(" `{value}`: {meaning}");
+        match &self.shape {
+            Shape::Value { choices, .. } => {
+                self.meaning.clone() + &choices.iter().map(entry).collect::<String>()
+            }
+            Shape::Object | Shape::Objects => self.meaning.clone(),
+        }
+    }
+
     /// Whether it must be given where its object is.
     pub fn required(&self) -> bool {
         matches!(self.shape, Shape::Value { required: true, .. })
@@ -91,6 +104,7 @@ impl Shape {
     pub(super) fn value<R: Rule>(rule: &R, default: Option<&R::Value>, inherited: bool) -> Self {
         Self::Value {
             rule: rule.words(),
+            choices: rule.choices(),
             default: default.filter(|_| !inherited).map(|value| rule.json(value)),
             required: default.is_none(),
             schema: rule.schema(),

@@ -65,7 +65,7 @@ pub(crate) fn defaults<T>(read: impl FnOnce(&mut Object) -> T) -> T {
 }
 
 /// An object without keys.
-static NOTHING: Node = Node { span: Span { source: 0, start: 0, end: 0 }, json: Json::Object(Vec::new()) };
+static NOTHING: Node = Node { span: Span::NOWHERE, json: Json::Object(Vec::new()) };
 
 impl Reader<'_> {
     fn object<T>(
@@ -185,9 +185,6 @@ impl<'a> Object<'a, '_> {
     fn list_value<R: Rule>(&mut self, row: Row, rule: &R, default: Option<&R::Value>) {
         let inherits = self.fallback.is_some();
         self.list_key(row, || Shape::value(rule, default, inherits));
-        if let Some(key) = self.reader.listed.as_mut().and_then(|keys| keys.last_mut()) {
-            key.meaning = [&key.meaning, &*rule.glossary()].join(" ").trim_end().to_owned();
-        }
     }
 
     /// Lists the key, if keys are listed; whether they are.

@@ -28,9 +28,9 @@ pub(crate) trait Rule {
     fn json(&self, value: &Self::Value) -> Value;
     /// A value in the place of one that is wrong or missing, so that reading can go on.
     fn placeholder(&self) -> Self::Value;
-    /// What each allowed name stands for; empty where the value is no name.
-    fn glossary(&self) -> String {
-        String::new()
+    /// The values to choose from, each with its meaning; none where the value is no choice.
+    fn choices(&self) -> Vec<(String, String)> {
+        Vec::new()
     }
 }
 

@@ -37,7 +37,7 @@ fn property(keys: &[Key], key: &Key) -> Value {
         Shape::Objects => json!({ "anyOf": [inner(), { "type": "array", "items": inner() }] }),
     };
     schema["description"] = match &key.shape {
-        Shape::Value { rule, .. } => format!("{} It must be {rule}.", key.meaning).into(),
+        Shape::Value { rule, .. } => format!("{} It must be {rule}.", key.full_meaning()).into(),
         Shape::Object | Shape::Objects => key.meaning.clone().into(),
     };
     if let Some(default) = key.default() {

@@ -11,6 +11,9 @@ pub(crate) struct Span {
 }
 
 impl Span {
+    /// The place of what stands in no text.
+    pub(crate) const NOWHERE: Self = Self { source: 0, start: 0, end: 0 };
+
     /// The first byte alone: where a long object or list starts.
     pub(crate) fn first(self) -> Self {
         Self { end: self.end.min(self.start + 1), ..self }

@@ -13,7 +13,7 @@ fn kinetic(change: &str) -> String {
     let path = crate::repository::path("scenes/pinned2.json");
     let sets = ["cloth.pinned=[[0,0],[0,49]]", "sim.fps=30", "sim.self_collision=\"off\"", change];
     let sets = sets.map(str::to_owned).to_vec();
-    let scene = load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene;
+    let scene = load(&path, &Overrides { sets, ..Overrides::default() }).unwrap().scene;
     let mut simulation = Simulation::new(&scene).unwrap();
     (0..300).for_each(|_| simulation.advance_frame().unwrap());
     format!("{:.2e}", simulation.energy().kinetic)

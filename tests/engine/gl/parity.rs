@@ -89,7 +89,7 @@ fn cases() -> Vec<Case> {
 
 fn scene(name: &str, sets: Vec<String>) -> Scene {
     let path = crate::repository::path("scenes").join(format!("{name}.json"));
-    load(&path, &Overrides { patches: Vec::new(), sets }).unwrap().scene
+    load(&path, &Overrides { sets, ..Overrides::default() }).unwrap().scene
 }
 
 /// The positions of a stock scene's cloth after 0, 1 and 2 s.

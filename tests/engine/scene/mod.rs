@@ -2,5 +2,6 @@
 
 mod errors;
 mod robust;
+mod page;
 mod schema;
 mod values;

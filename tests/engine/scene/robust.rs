@@ -56,7 +56,7 @@ fn in_range(scene: &Scene) -> Result<(), TestCaseError> {
 
 /// What holds of every text: a scene in range, or errors each with its place in the text.
 fn loads_or_explains(text: &str, sets: &[String]) -> Result<bool, TestCaseError> {
-    match load_text("x.json", text, &Overrides { patches: vec![], sets: sets.to_vec() }) {
+    match load_text("x.json", text, &Overrides { sets: sets.to_vec(), ..Overrides::default() }) {
         Ok(loaded) => in_range(&loaded.scene).map(|()| true),
         Err(error) => {
             prop_assert!(matches!(error.kind, Kind::Scene | Kind::Usage), "{error:?}");

@@ -238,61 +238,6 @@ fn every_default_is_the_value_of_a_key_that_is_left_out() {
     assert!(defaults > 40, "{defaults} defaults");
 }
 
-/// The rows of `docs/scene.md` that the schema asks for: what a key means, what it is when left out,
-/// and what it must be.
-fn rows() -> Vec<(String, String)> {
-    let schema = schema();
-    let mut rows = rows_of("The scene", &schema);
-    for (name, object) in schema["properties"].as_object().expect("objects") {
-        rows.extend(rows_of(name, object.pointer("/anyOf/0").unwrap_or(object)));
-    }
-    rows
-}
-
-fn rows_of(section: &str, object: &Value) -> Vec<(String, String)> {
-    let required = |key: &str| object["required"].as_array().is_some_and(|keys| keys.contains(&json!(key)));
-    let row = |(key, schema): (&String, &Value)| {
-        let description = schema["description"].as_str().expect("a description");
-        let (meaning, must) = match description.split_once(" It must be ") {
-            Some((meaning, must)) => (meaning, must.trim_end_matches('.')),
-            None if schema.get("anyOf").is_some() => (description, "an object, or a list of them"),
-            None => (description, "an object"),
-        };
-        let default = match schema.get("default") {
-            Some(default) => format!("`{default}`").replace(',', ", "),
-            None if required(key) => "required".to_owned(),
-            // An object of which every key may be left out may be left out itself.
-            None if schema["required"] == json!([]) => "`{}`".to_owned(),
-            None => "none".to_owned(),
-        };
-        (section.to_owned(), format!("| `{key}` | {meaning} | {default} | {must} |"))
-    };
-    object["properties"].as_object().expect("properties").iter().map(row).collect()
-}
-
-#[test]
-fn the_page_of_scenes_has_every_key_as_the_schema_has_it() {
-    let page = fs::read_to_string(folder("docs").join("scene.md")).expect("the page");
-    let (mut section, mut on_page) = ("", Vec::new());
-    for line in page.lines() {
-        if let Some(title) = line.strip_prefix("## ") {
-            section = title.trim_matches('`');
-        } else if line.starts_with("### ") {
-            section = "";
-        } else if line.starts_with("| `") && !section.is_empty() {
-            on_page.push((section.to_owned(), line.to_owned()));
-        }
-    }
-    let rows = rows();
-    let beyond = |all: &[(String, String)], known: &[(String, String)]| -> Vec<String> {
-        let new = all.iter().filter(|row| !known.contains(row));
-        new.map(|(section, row)| format!("{section}: {row}")).collect()
-    };
-    let (missing, wrong) = (beyond(&rows, &on_page), beyond(&on_page, &rows));
-    let text = format!("missing:\n{}\nwrong:\n{}", missing.join("\n"), wrong.join("\n"));
-    assert!(missing.is_empty() && wrong.is_empty() && on_page.len() == rows.len(), "{text}");
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 

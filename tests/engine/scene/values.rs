@@ -18,7 +18,7 @@ fn stock(name: &str) -> Scene {
 
 fn with(text: &str, sets: &[&str]) -> Scene {
     let sets = sets.iter().map(ToString::to_string).collect();
-    load_text("scene.json", text, &Overrides { patches: vec![], sets }).expect("a valid scene").scene
+    load_text("scene.json", text, &Overrides { sets, ..Overrides::default() }).expect("a valid scene").scene
 }
 
 fn material() -> Material {
@@ -315,8 +315,12 @@ fn patches_come_first_then_sets_each_in_order() {
         patch("b.json", r#"{"cloth": {"density": 2, "damping": 2}, "camera": {"polar": 60}}"#),
     ];
     let sets = vec!["cloth.damping=3".into(), "cloth.damping=4".into(), "sim.stretch_limit=null".into()];
-    let scene =
-        load(&crate::repository::path("scenes/plane.json"), &Overrides { patches, sets }).unwrap().scene;
+    let scene = load(
+        &crate::repository::path("scenes/plane.json"),
+        &Overrides { patches, sets, ..Overrides::default() },
+    )
+    .unwrap()
+    .scene;
     let cloth = Cloth { ks: 1.0, density: 2.0, damping: 4.0, ..stock_cloth() };
     let sim = Sim { stretch_limit: None, ..empty().sim };
     let camera = Camera { polar: 60.0, ..empty().camera };

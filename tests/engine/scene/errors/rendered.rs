@@ -142,7 +142,7 @@ fn a_patch_is_named_with_its_own_line_and_column() {
     let patch = folder.path().join("look.json");
     fs::write(&patch, "{\n  \"light\": {\"colour\": [1, 1, 1]},\n  \"render\": {\"size\": [640]}\n}\n")
         .unwrap();
-    let overrides = Overrides { patches: vec![patch.clone()], sets: vec![] };
+    let overrides = Overrides { patches: vec![patch.clone()], ..Overrides::default() };
     let error = load_text("scene.json", "{}", &overrides).unwrap_err();
     let golden = r#"
 error[scene::unknown_key]: unknown key `light.colour`

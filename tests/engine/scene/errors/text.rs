@@ -76,7 +76,7 @@ fn a_file_that_cannot_be_read_is_an_input_error() {
     let error = load(missing, &Overrides::default()).unwrap_err();
     assert_eq!(error.kind, Kind::Io);
     assert!(error.message.starts_with("cannot read no/such/scene.json: "), "{}", error.message);
-    let overrides = Overrides { patches: vec![missing.into()], sets: vec![] };
+    let overrides = Overrides { patches: vec![missing.into()], ..Overrides::default() };
     assert_eq!(load_text("scene.json", "{}", &overrides).unwrap_err().kind, Kind::Io);
     assert_eq!(load(Path::new("."), &Overrides::default()).unwrap_err().kind, Kind::Io);
 }
