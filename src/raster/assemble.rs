@@ -6,6 +6,7 @@ use super::{
     bin::Bins,
     clip::{ClipVertex, FAR, clip_polygon, clip_segment},
     handle::CHUNK,
+    primitives::Primitives,
     setup::{Corner, Dropped, Line, Triangle, Viewport},
     vertex::VertexBuffer,
 };
@@ -33,24 +34,6 @@ pub(super) struct Counts {
     pub(super) degenerate: u64,
     pub(super) no_sample: u64,
     pub(super) drawn: u64,
-}
-
-/// What a draw call draws: vertex indices per primitive.
-#[derive(Clone, Copy, Debug)]
-pub enum Primitives<'a> {
-    /// Filled triangles, both sides.
-    Triangles(&'a [[u32; 3]]),
-    /// Lines one pixel wide, in one colour: their fragment program reads no varyings.
-    Lines(&'a [[u32; 2]]),
-}
-
-impl Primitives<'_> {
-    pub(super) fn len(&self) -> usize {
-        match self {
-            Self::Triangles(all) => all.len(),
-            Self::Lines(all) => all.len(),
-        }
-    }
 }
 
 /// Clips, sets up and bins the primitives of all calls, chunk by chunk.

@@ -1,9 +1,9 @@
 //! Draw calls: a mesh with its two programs.
 
 use super::{
-    assemble::Primitives,
     fragments::FragmentList,
     interpolate::ShadeInput,
+    primitives::Primitives,
     program::{FragmentProgram, VertexProgram},
     setup::Viewport,
     shade::{shade, shade_vectors},

@@ -12,6 +12,7 @@ mod program;
 mod vertex;
 mod handle;
 mod bin;
+mod primitives;
 mod assemble;
 mod framebuffer;
 mod triangle;
@@ -36,9 +37,9 @@ use tile::{Scratch, TileScene, draw_tile};
 use timing::{Clock, NoClock, WallClock};
 use vertex::VertexBuffer;
 
-pub use assemble::Primitives;
 pub use draw_call::DrawCall;
 pub use framebuffer::Framebuffer;
+pub use primitives::Primitives;
 pub use program::{FragmentProgram, NoVaryings, Uniform, Varying, Varyings, VertexOutput, VertexProgram};
 pub use stats::Stats;
 pub use timing::Stages;

@@ -4,10 +4,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{
-    assemble::{Chunk, Primitives},
-    vertex::VertexBuffer,
-};
+use super::{assemble::Chunk, primitives::Primitives, vertex::VertexBuffer};
 
 /// What drawing a picture took. Counts are the same for any number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

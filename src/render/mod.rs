@@ -1,44 +1,25 @@
 //! A scene and the cloth's positions in, a picture out.
 
+mod options;
 mod object;
+mod programs;
+
+pub use options::{Options, Shading};
 
 use crate::{
-    camera::Camera,
     cloth::Points,
-    cubemap::Cubemap,
     error::{Error, Kind, Result},
     math::StateHash,
-    mesh::SpringKinds,
     raster::{self, DrawCall, Framebuffer, Stages, Stats},
-    scene::{Images, Scene},
-    texture::Texture,
+    scene::Scene,
     texture_source::TextureSource,
 };
-use object::{Object, round};
+use object::Object;
+use options::round;
+use programs::Programs;
 
 /// Most samples of a picture: 16384 x 16384 pixels of one sample, which take 3 GiB.
 pub const MAX_SAMPLES: u64 = 1 << 28;
-
-/// What is asked of a picture besides the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Spring kinds that a wireframe shows; absent: those that the cloth has.
-    pub springs: Option<SpringKinds>,
-    /// Keep object and triangle ids.
-    pub ids: bool,
-    /// The arithmetic of the fragment stage.
-    pub shading: Shading,
-}
-
-/// The arithmetic in which fragment programs run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shading {
-    /// binary32, as on a graphics card.
-    #[default]
-    F32,
-    /// binary64, for measuring what binary32 loses: the same programs, uniforms and vertices.
-    F64,
-}
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,10 +41,7 @@ pub struct Picture {
 /// A scene with its textures, ready to be drawn at any positions of its cloth.
 #[derive(Clone, Debug)]
 pub struct Renderer {
-    scene: Scene,
-    camera: Camera,
-    textures: Vec<(String, Texture)>,
-    cubemaps: Vec<(String, Cubemap)>,
+    programs: Programs,
 }
 
 impl Renderer {
@@ -80,44 +58,32 @@ impl Renderer {
             let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
             return Err(Error::new(Kind::Scene, message).with_help(help));
         }
-        let images = Images::of(scene);
-        let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
-        let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
-        Ok(Self {
-            scene: scene.clone(),
-            camera: Camera::of(scene)?,
-            textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
-            cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
-        })
+        Ok(Self { programs: Programs::new(scene, source)? })
     }
 
     /// Takes the texels of all textures into `hash`.
     pub fn hash_textures(&self, hash: &mut StateHash) {
-        let faces = self.cubemaps.iter().flat_map(|(_, cubemap)| cubemap.faces());
-        for texture in self.textures.iter().map(|(_, texture)| texture).chain(faces) {
-            hash.write(&(texture.width() as u64).to_le_bytes());
-            texture.texels().iter().flatten().for_each(|value| hash.write(&value.to_le_bytes()));
-        }
+        self.programs.hash_textures(hash);
     }
 
     /// A framebuffer of the scene's size and samples.
     pub fn framebuffer(&self) -> Framebuffer {
-        let [width, height] = self.scene.render.size;
-        Framebuffer::new(width, height, self.scene.render.samples)
+        let [width, height] = self.programs.scene.render.size;
+        Framebuffer::new(width, height, self.programs.scene.render.samples)
     }
 
     /// The picture with the cloth at `points`.
     pub fn draw(&self, points: &Points, options: &Options) -> Picture {
         let mut framebuffer = self.framebuffer();
         let stats = self.draw_into(&mut framebuffer, points, options);
-        let [width, height] = self.scene.render.size;
+        let [width, height] = self.programs.scene.render.size;
         let (rgb, depth, ids) = (framebuffer.rgb(), framebuffer.depth(), framebuffer.ids());
         Picture { width, height, rgb, depth, ids, stats }
     }
 
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
     pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> Stats {
-        let objects = Object::all(&self.scene, points, options.springs);
+        let objects = Object::all(&self.programs.scene, points, options.springs);
         raster::draw(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
     }
 
@@ -128,15 +94,15 @@ impl Renderer {
         points: &Points,
         options: &Options,
     ) -> (Stats, Stages) {
-        let objects = Object::all(&self.scene, points, options.springs);
+        let objects = Object::all(&self.programs.scene, points, options.springs);
         raster::draw_timed(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
     }
 
     fn calls<'a>(&'a self, objects: &'a [Object<'a>], options: &Options) -> Vec<DrawCall<'a>> {
-        objects.iter().map(|object| self.draw_call(object, options.shading)).collect()
+        objects.iter().map(|object| self.programs.draw_call(object, options.shading)).collect()
     }
 
     fn background(&self) -> [f32; 3] {
-        round(self.scene.render.background)
+        round(self.programs.scene.render.background)
     }
 }

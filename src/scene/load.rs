@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
+use super::json::merge::merge;
 use super::json::node::{Json, Node};
 use super::json::object;
 use super::json::parse::parse;
 use super::json::span::Span;
 use super::json::suggest::nearest;
 use super::keys::keys;
-use super::patch::{self, Set};
+use super::set::{self, Set};
 use super::{Scene, stock, validate};
 use crate::error::{Diagnostic, Error, Kind, Result};
 
@@ -103,10 +104,10 @@ fn assemble(
     }
     let (mut sets, mut flags) = (Vec::new(), Vec::new());
     for argument in &overrides.sets {
-        sets.push(patch::read_set(&mut diagnostics, "--set", argument)?);
+        sets.push(set::read_set(&mut diagnostics, "--set", argument)?);
     }
     for flag in &overrides.flags {
-        flags.push(patch::read_set(&mut diagnostics, flag.name, &flag.set)?);
+        flags.push(set::read_set(&mut diagnostics, flag.name, &flag.set)?);
     }
     let scene = changed(&mut diagnostics, document, patches, sets, flags)
         .and_then(|document| read_scene(&mut diagnostics, &document));
@@ -124,9 +125,9 @@ fn changed(
     flags: Vec<Option<Set>>,
 ) -> Option<Node> {
     let (patches, sets) = (all(patches)?, all(sets)?);
-    let mut document = patches.into_iter().fold(document?, patch::merge);
-    sets.into_iter().for_each(|set| patch::apply(diagnostics, &mut document, set));
-    all(flags)?.into_iter().for_each(|flag| patch::apply_to_each(diagnostics, &mut document, flag));
+    let mut document = patches.into_iter().fold(document?, merge);
+    sets.into_iter().for_each(|set| set::apply(diagnostics, &mut document, set));
+    all(flags)?.into_iter().for_each(|flag| set::apply_to_each(diagnostics, &mut document, flag));
     Some(document)
 }
 
@@ -141,10 +142,10 @@ fn all<T>(values: Vec<Option<T>>) -> Option<Vec<T>> {
 /// What is wrong with it, in words.
 pub fn check_value(path: &str, json: &str) -> Result<(), String> {
     let mut diagnostics = Diagnostics::default();
-    let set = patch::read_set(&mut diagnostics, "--set", &format!("{path}={json}"));
+    let set = set::read_set(&mut diagnostics, "--set", &format!("{path}={json}"));
     if let Some(set) = set.map_err(|error| error.message)? {
         let mut document = Node { span: Span::NOWHERE, json: Json::Object(Vec::new()) };
-        patch::apply(&mut diagnostics, &mut document, set);
+        set::apply(&mut diagnostics, &mut document, set);
         object::read(&mut diagnostics, &document, keys, Scene::read);
     }
     match diagnostics.finish() {

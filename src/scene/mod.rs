@@ -16,7 +16,7 @@ mod light;
 mod load;
 mod material;
 mod needs;
-mod patch;
+mod set;
 mod plan;
 mod render;
 mod shader;

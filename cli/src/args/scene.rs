@@ -35,7 +35,7 @@ impl SceneArgs {
         self.load_with_flags(&[], session)
     }
 
-    /// The scene with the changes of `flags`; its warnings are told.
+    /// As [`SceneArgs::load`], with the changes of `flags`.
     pub(crate) fn load_with_flags(&self, flags: &[Flag], session: &Session) -> Result<Scene> {
         let loaded = scene::load(&self.path, &self.changes.with(flags))?;
         loaded.warnings.iter().for_each(|warning| session.ui.warn(warning));
@@ -54,7 +54,8 @@ impl SceneArgs {
         scene::load(&self.path, &overrides).map(|loaded| loaded.scene)
     }
 
-    /// The scene of the files built into the program, called as they are in the repository, with the changes of `flags`.
+    /// Reads a scene file that is built into the program, by its path in the repository, with the changes of
+    /// `flags`.
     pub(crate) fn load_stock(&self, flags: &[Flag]) -> Result<Scene> {
         scene::load_stock(&self.path, &self.changes.with(flags)).map(|loaded| loaded.scene)
     }

@@ -9,6 +9,7 @@ pub(crate) mod finding;
 pub(crate) mod key;
 pub(crate) mod keys;
 pub(crate) mod list;
+pub(crate) mod merge;
 pub(crate) mod node;
 pub(crate) mod object;
 pub(crate) mod parse;

@@ -1,0 +1,131 @@
+//! The programs of the objects: what each material's shader is made of, with its uniforms and textures.
+
+use super::object::Object;
+use super::options::{Shading, round, to_f32};
+use crate::{
+    camera::Camera,
+    cubemap::Cubemap,
+    error::Result,
+    glsl::Exponent,
+    math::StateHash,
+    raster::DrawCall,
+    scene::{Images, Scene, Shader},
+    shader::{
+        Uniforms, bump, custom, diffuse, displacement, mirror, normal, phong,
+        sampler::{Sampler2d, SamplerCube},
+        texture, wireframe,
+    },
+    texture::Texture,
+    texture_source::TextureSource,
+};
+
+/// A scene with its camera and textures.
+#[derive(Clone, Debug)]
+pub(super) struct Programs {
+    pub(super) scene: Scene,
+    camera: Camera,
+    textures: Vec<(String, Texture)>,
+    cubemaps: Vec<(String, Cubemap)>,
+}
+
+impl Programs {
+    /// Reads the textures that the scene's materials need, each once, and no others.
+    ///
+    /// # Errors
+    /// A texture that is missing or cannot be decoded.
+    pub(super) fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
+        let images = Images::of(scene);
+        let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
+        let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
+        Ok(Self {
+            scene: scene.clone(),
+            camera: Camera::of(scene)?,
+            textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
+            cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
+        })
+    }
+
+    /// Takes the texels of all textures into `hash`.
+    pub(super) fn hash_textures(&self, hash: &mut StateHash) {
+        let faces = self.cubemaps.iter().flat_map(|(_, cubemap)| cubemap.faces());
+        for texture in self.textures.iter().map(|(_, texture)| texture).chain(faces) {
+            hash.write(&(texture.width() as u64).to_le_bytes());
+            texture.texels().iter().flatten().for_each(|value| hash.write(&value.to_le_bytes()));
+        }
+    }
+
+    /// The draw call of an object: its mesh with the programs of its material.
+    pub(super) fn draw_call<'a>(&'a self, object: &'a Object<'a>, shading: Shading) -> DrawCall<'a> {
+        let u = self.uniforms(object);
+        let material = object.material;
+        let u_texture_1 = || self.sampler(&material.texture);
+        let u_texture_2 = || self.sampler(&material.height_map);
+        let u_texture_cubemap = || self.sampler_cube(&material.environment);
+        match material.shader {
+            Shader::Wireframe => object.call(shading, wireframe::vertex(&u), wireframe::Fragment { u }),
+            Shader::Normal => object.call(shading, normal::vertex(&u), normal::Fragment {}),
+            Shader::Diffuse => object.call(shading, diffuse::vertex(&u), diffuse::Fragment { u }),
+            Shader::Phong => object.call(shading, phong::vertex(&u), phong::Fragment { u }),
+            Shader::Texture => {
+                let fragment = texture::Fragment { u_texture_1: u_texture_1() };
+                object.call(shading, texture::vertex(&u), fragment)
+            }
+            Shader::Mirror => {
+                let fragment = mirror::Fragment { u, u_texture_cubemap: u_texture_cubemap() };
+                object.call(shading, mirror::vertex(&u), fragment)
+            }
+            Shader::Bump => {
+                let fragment = bump::Fragment { u, u_texture_2: u_texture_2() };
+                object.call(shading, bump::vertex(&u), fragment)
+            }
+            Shader::Displacement => {
+                let fragment = displacement::Fragment { u, u_texture_2: u_texture_2() };
+                object.call(shading, displacement::vertex(&u, u_texture_2()), fragment)
+            }
+            Shader::Custom => {
+                let fragment = custom::Fragment {
+                    u,
+                    u_texture_1: u_texture_1(),
+                    u_texture_2: u_texture_2(),
+                    u_texture_cubemap: u_texture_cubemap(),
+                };
+                object.call(shading, custom::vertex(&u, u_texture_2()), fragment)
+            }
+        }
+    }
+
+    fn uniforms(&self, object: &Object<'_>) -> Uniforms {
+        let (material, light) = (object.material, &self.scene.light);
+        Uniforms {
+            u_model: object.model,
+            u_view_projection: self.camera.view_projection,
+            u_cam_pos: self.camera.position,
+            u_color: round(material.color),
+            u_light_pos: round(light.position),
+            u_light_intensity: round(light.intensity),
+            u_light_color: round(light.color),
+            u_ka: to_f32(material.ka),
+            u_kd: to_f32(material.kd),
+            u_ks: to_f32(material.ks),
+            u_shininess: Exponent::of(to_f32(material.shininess)),
+            u_km: to_f32(material.km),
+            u_normal_scaling: to_f32(material.normal_scaling),
+            u_height_scaling: to_f32(material.height_scaling),
+        }
+    }
+
+    fn sampler(&self, name: &str) -> Sampler2d<'_> {
+        Sampler2d { texture: find(&self.textures, name).expect(LOADED), filter: self.scene.render.filter }
+    }
+
+    fn sampler_cube(&self, name: &str) -> SamplerCube<'_> {
+        SamplerCube { cubemap: find(&self.cubemaps, name).expect(LOADED), filter: self.scene.render.filter }
+    }
+}
+
+/// `Programs::new` reads exactly what `draw_call` asks for: both go by [`Needs::of`].
+const LOADED: &str = "the renderer reads all textures of its materials";
+
+fn find<'a, T>(named: &'a [(String, T)], name: &str) -> Option<&'a T> {
+    named.iter().find(|(other, _)| other == name).map(|(_, value)| value)
+}
