@@ -1,6 +1,6 @@
 //! Values that a scene cannot have, and keys that are missing or unknown.
 
-use drape::scene::{load, load_text};
+use drape::scene::{Flag, Overrides, check_value, load, load_text};
 
 use super::{CLOTH, error, sets, summary};
 
@@ -178,6 +178,14 @@ fn a_key_of_another_object_is_shown_where_it_belongs() {
         ("friction=0", "did you mean `sphere.friction` or `plane.friction`?"),
         ("sphere.time=0", "did you mean `render.time`?"),
         ("render.sim=0", "did you mean `sim`?"),
+        ("camera.gravity=[0,0,0]", "did you mean `sim.gravity`?"),
+        ("position=[0,0,0]", "did you mean `light.position`?"),
+        // The place of one object is not what is meant by a place in another.
+        (
+            "camera.position=[0,0,0]",
+            "the keys here are target, distance, polar, azimuth, hfov, vfov, near, far",
+        ),
+        ("light.size=[1,1]", "the keys here are position, intensity, color"),
         // A slip of the key that is there comes first.
         ("render.site=0", "did you mean `size`?"),
     ] {
@@ -272,4 +280,36 @@ fn what_belongs_to_another_integrator_is_an_error() {
     refuses("sim.iterations=0", &["scene::out_of_range sim.iterations"]);
     refuses("sim.tolerance=0", &["scene::out_of_range sim.tolerance"]);
     refuses("sim.integrator=euler", &["scene::unknown_value sim.integrator"]);
+}
+
+#[test]
+fn a_set_that_is_nearly_a_number_says_what_to_write() {
+    let error = error("{}", &["cloth.ks=5k"]);
+    assert_eq!(summary(&error), ["scene::syntax 1:10 cloth.ks"]);
+    let found = &error.diagnostics[0];
+    assert_eq!(found.message, "`5k` is neither a number nor another JSON value");
+    assert_eq!(found.help, "write `--set cloth.ks=5000`");
+}
+
+#[test]
+fn a_flag_is_named_by_its_errors() {
+    let flag = Flag { name: "--size", set: "render.size=[0,1]".to_owned() };
+    let overrides = Overrides { flags: vec![flag], ..Overrides::default() };
+    let error = load_text("scene.json", "{}", &overrides).unwrap_err();
+    let found = &error.diagnostics[0];
+    assert_eq!((found.file.as_str(), found.key.as_str()), ("--size render.size=[0,1]", "render.size.0"));
+}
+
+#[test]
+fn a_value_alone_is_checked_by_the_rule_of_its_key() {
+    assert_eq!(check_value("render.samples", "4"), Ok(()));
+    assert_eq!(check_value("sphere.resolution.0", "16"), Ok(()));
+    let wrong = |path: &str, json: &str| check_value(path, json).unwrap_err();
+    assert_eq!(wrong("render.samples", "3"), "`render.samples` is 3 but must be 1, 4, 8 or 16");
+    assert_eq!(
+        wrong("sphere.resolution.0", "1"),
+        "`sphere.resolution.0` is 1 but must be a whole number from 2 to 1000"
+    );
+    assert_eq!(wrong("render.time", "1s"), "`1s` is neither a number nor another JSON value");
+    assert_eq!(wrong("render.time", "{"), "not valid JSON: this object is never closed");
 }
