@@ -189,7 +189,7 @@ fn depth_test<S: FragmentLanes>(
     // A sample may lie outside of the unsnapped corners, and the plane there below 0.
     let z = Lane::max(Lane::all(z, 0.0), z);
     // Outside, all bits are set: a NaN, which is not nearer than anything.
-    let z = f32x8::from_bits(z.to_bits() | (signs >> 31).bitcast());
+    let z = f32x8::from_bits(z.to_bits() | (signs >> 31).bitcast::<u32x8<S>>());
     let old = f32x8::load_array(simd, *depths);
     *depths = Lane::min(z, old).to_array();
     // In a tile, handles only grow.
