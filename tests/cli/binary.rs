@@ -5,8 +5,6 @@
 //! A function or closure on the way that is not marked `#[inline(always)]` is compiled for the baseline, and
 //! gives the same bits many times slower; nothing else would notice.
 
-#![expect(clippy::print_stdout, reason = "what was measured, and why nothing was")]
-
 use std::{
     collections::BTreeMap,
     env,
