@@ -3,6 +3,8 @@
 //! Standard output carries the result that was asked for and nothing else: progress, warnings and errors
 //! go to standard error. The exit code is that of the error's [`Kind`].
 
+#![forbid(unsafe_code)]
+
 mod session;
 mod run;
 mod args;

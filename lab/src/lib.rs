@@ -6,6 +6,8 @@
 //! tells its progress through a callback, which can also end it with an error. A module uses only the
 //! modules above it in this list.
 
+#![forbid(unsafe_code)]
+
 pub mod csv;
 pub mod store;
 pub mod page;

@@ -36,7 +36,12 @@ impl<T: Real> Forces<T> {
         weight: [T; 3],
         counters: &mut Counters,
     ) {
-        self.accumulator.accumulate(springs, weight, |_, family, points, out| pull(x, family, points, out));
+        self.accumulator.accumulate(
+            springs,
+            weight,
+            #[inline(always)]
+            |_, family, points, out| pull(x, family, points, out),
+        );
         counters.springs_evaluated += springs.len() as u64;
     }
 }

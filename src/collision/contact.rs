@@ -76,7 +76,9 @@ impl Chunk<'_> {
         for start in (0..self.pinned.len()).step_by(BLOCK) {
             let block = start..(start + BLOCK).min(self.pinned.len());
             if self.any_hit(shape, block.clone()) {
-                block.for_each(|p| moves += u64::from(self.resolve_point(shape, p)));
+                for p in block {
+                    moves += u64::from(self.resolve_point(shape, p));
+                }
             }
         }
         moves
@@ -97,6 +99,7 @@ impl Chunk<'_> {
     }
 
     /// Resolves the contact of point `p`, if it is free and hit `shape`; whether it was.
+    #[inline(always)]
     fn resolve_point(&mut self, shape: &(impl Shape + ?Sized), p: usize) -> bool {
         let x = Vec3::from(self.x.each_ref().map(|x| x[p]));
         let last = Vec3::from(self.last.map(|last| last[p]));

@@ -1,6 +1,6 @@
 //! Integrators: how the points of a cloth move on by one step under the forces on them.
 //!
-//! An integrator is a type with the trait [`Integrator`] in a file of its own, and a row of
+//! An integrator is a type with the trait `Integrator` in a file of its own, and a row of
 //! the table below.
 
 mod bdf2;

@@ -68,9 +68,12 @@ impl Stiffness {
     /// What the springs do, in N, when the points move by `moves`: minus the matrix times `moves`.
     pub(super) fn resist(&mut self, moves: &Points, springs: &Springs) -> &Points {
         let families = &self.families;
-        self.accumulator.accumulate(springs, [0.0; 3], |index, family, points, out| {
-            families[index].resist(moves, family.offset, points, out);
-        });
+        self.accumulator.accumulate(
+            springs,
+            [0.0; 3],
+            #[inline(always)]
+            |index, family, points, out| families[index].resist(moves, family.offset, points, out),
+        );
         &self.accumulator.sum
     }
 }
@@ -87,6 +90,7 @@ impl Tangents {
     }
 
     /// What the springs that `points` own add to their owners.
+    #[inline(always)]
     fn resist(&self, moves: &Points, offset: usize, points: Range<usize>, out: [&mut [f64]; 3]) {
         let n = points.len();
         let b = points.start - offset..points.end - offset;

@@ -1,6 +1,6 @@
 //! Vector instructions: which of them a hot loop is compiled for, and which copy is run.
 //!
-//! [`dispatch!`] compiles an expression once for each level and runs the copy for the widest one that
+//! `dispatch!` compiles an expression once for each level and runs the copy for the widest one that
 //! the CPU has. No copy fuses or reorders an operation, so all give the same bits; only the speed
 //! differs. Whatever the expression calls must be marked `#[inline(always)]`, closures too: what is not
 //! inlined is compiled for the baseline and measured up to eight times slower.

@@ -6,10 +6,10 @@
 //! Only operations that are rounded exactly, or not at all, are used: the bits are the same in every lane.
 
 pub mod level;
+#[cfg(test)]
+mod operations;
 mod pair;
 mod scalar;
-#[cfg(test)]
-mod tests;
 mod vector;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

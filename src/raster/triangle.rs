@@ -7,7 +7,7 @@
 //! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
 //! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
-use fearless_simd::{Select, SimdBase, SimdNarrow, f32x8, f64x4, i32x8, u32x8};
+use fearless_simd::{Bytes, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, u32x8};
 
 use super::{
     framebuffer::Tile,
@@ -173,8 +173,10 @@ fn whole(pixel: usize) -> f64 {
     f64::from(pixel as i32)
 }
 
-/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive. All eight are
-/// written: a store of some of them is slow on some CPUs.
+/// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
+///
+/// Minimum and maximum in place of selections: of those the compiler makes stores of single lanes, which
+/// are slow on some CPUs.
 #[inline(always)]
 fn depth_test<S: FragmentLanes>(
     signs: i32x8<S>,
@@ -186,10 +188,13 @@ fn depth_test<S: FragmentLanes>(
     let simd = z.simd;
     // A sample may lie outside of the unsnapped corners, and the plane there below 0.
     let z = Lane::max(Lane::all(z, 0.0), z);
-    let (old, seen) = (f32x8::load_array(simd, *depths), u32x8::load_array(simd, *visible));
-    let pass = z.simd_lt(old) & signs.simd_ge(0);
-    *depths = pass.select(z, old).to_array();
-    *visible = pass.select(u32x8::splat(simd, handle), seen).to_array();
+    // Outside, all bits are set: a NaN, which is not nearer than anything.
+    let z = f32x8::from_bits(z.to_bits() | (signs >> 31).bitcast::<u32x8<S>>());
+    let old = f32x8::load_array(simd, *depths);
+    *depths = Lane::min(z, old).to_array();
+    // In a tile, handles only grow.
+    let passed = z.simd_lt(old).to_vector().bitcast::<u32x8<S>>() & handle;
+    *visible = SimdBase::max(u32x8::load_array(simd, *visible), passed).to_array();
 }
 
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.

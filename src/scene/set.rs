@@ -269,7 +269,7 @@ mod tests {
             Some("write the number alone, `--set cloth.ks=0.5`, or text in quotes")
         );
         assert_eq!(help("1,2,3").as_deref(), Some("a list stands in brackets: `--set 'cloth.ks=[1,2,3]'`"));
-        for fine in ["5", "-5e3", " 5 ", "[5]", "{}", "\"5k\"", ""] {
+        for fine in ["5", "-5e3", " 5 ", "1e999", "[5]", "{}", "\"5k\"", ""] {
             assert_eq!(help(fine), None, "{fine}");
         }
     }

@@ -15,6 +15,7 @@ macro_rules! shaders {
 
         impl Needs {
             /// What `shader` reads.
+            #[allow(clippy::needless_update, reason = "a shader may read everything")]
             pub fn of(shader: Shader) -> Self {
                 match shader {
                     $(Shader::$shader => Self { $($read: true,)* ..Self::NOTHING },)*

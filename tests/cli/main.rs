@@ -7,6 +7,7 @@
 )]
 
 mod animate;
+mod binary;
 mod browser;
 mod disk;
 mod docs;

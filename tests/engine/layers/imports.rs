@@ -37,7 +37,7 @@ impl Crate {
         for child in &module.declared {
             let files = [inside.join(format!("{child}.rs")), inside.join(child).join("mod.rs")];
             if let Some(file) = files.iter().find(|file| file.exists()) {
-                self.add(file, [&path[..], &[child.clone()]].concat());
+                self.add(file, [&path[..], std::slice::from_ref(child)].concat());
             }
         }
         self.modules.insert(path, module);
