@@ -70,8 +70,10 @@ fn functions(text: impl BufRead) -> BTreeMap<u64, Function> {
     functions
 }
 
-/// Functions that hot loops may call although they are compiled for the baseline: what is not hot in them.
-const COLD: [&str; 5] = ["core..panicking", "core..slice", "alloc..", "draw_line", "libm"];
+/// What hot loops may call although it is compiled for the baseline, because it is seldom reached: panics,
+/// lines, the list of a tile, springs over the stretch limit, powers that are not whole. Nothing else of the
+/// project may be called.
+const COLD: [&str; 6] = ["core..panicking", "core9panicking", "draw_line", "in_tile", "shorten", "4math3pow"];
 
 /// What is slow in the copies for a level, how many of them there are, and their narrow and wide divisions.
 fn slow_in(functions: &BTreeMap<u64, Function>, level: &str) -> (Vec<String>, [usize; 3]) {
@@ -82,8 +84,8 @@ fn slow_in(functions: &BTreeMap<u64, Function>, level: &str) -> (Vec<String>, [u
         slow.extend(copy.slow.iter().map(|instruction| format!("{}: {instruction}", copy.name)));
         for called in copy.calls.iter().filter_map(|address| functions.get(address)) {
             let cold = COLD.iter().any(|name| called.name.contains(name));
-            if let Some(instruction) = called.slow.first().filter(|_| !cold) {
-                slow.push(format!("{} calls {}: {instruction}", copy.name, called.name));
+            if !cold && (called.name.contains("drape") || !called.slow.is_empty()) {
+                slow.push(format!("{} calls {}", copy.name, called.name));
             }
         }
     }
@@ -126,7 +128,7 @@ fn hot_loops_are_compiled_for_their_level() {
         let (slow, [copies, narrow, wide]) = slow_in(&functions, level);
         println!("{level}: {copies} functions with {narrow} narrow and {wide} wide divisions and roots");
         assert!(slow.is_empty(), "{level}:\n{}", slow.join("\n"));
-        assert!(copies >= 10 && wide >= 50, "{level}: only {copies} functions and {wide} wide divisions");
+        assert!(copies >= 10 && wide >= 90, "{level}: only {copies} functions and {wide} wide divisions");
         // Loops over f32 and f64 at once have narrow ones.
         assert!(20 * narrow < wide, "{level}: {narrow} narrow divisions beside {wide}");
     }
@@ -135,15 +137,15 @@ fn hot_loops_are_compiled_for_their_level() {
 #[test]
 fn slow_code_is_found() {
     let listing = "\
-0000000000001000 <vectorize_avx2>:\n    1000:\tvdivps %ymm0,%ymm1,%ymm2\n    1004:\tcall   2000 <shade>\n\
+0000000000001000 <vectorize_avx2>:\n    1000:\tvdivps %ymm0,%ymm1,%ymm2\n    1004:\tcall   2000 <drape..shade>\n\
     1008:\tcall   3000 <core..panicking>\n    100c:\tjmp    1004 <vectorize_avx2+0x4>\n\
-0000000000002000 <shade>:\n    2000:\tdivps  %xmm0,%xmm1\n\
+0000000000002000 <drape..shade>:\n    2000:\tdivps  %xmm0,%xmm1\n\
 0000000000003000 <core..panicking>:\n    3000:\tmulps  %xmm0,%xmm1\n\
 0000000000004000 <vectorize_avx512>:\n    4000:\tvdivps %xmm0,%xmm1,%xmm2\n    4004:\tvmaskmovps %ymm0,%ymm1,(%rax)\n\
     4008:\tvdivpd %zmm0,%zmm1,%zmm2\n    400c:\tdivss  %xmm0,%xmm1\n";
     let functions = functions(listing.as_bytes());
     let avx2 = slow_in(&functions, "vectorize_avx2");
-    assert_eq!(avx2, (vec!["vectorize_avx2 calls shade: divps  %xmm0,%xmm1".to_owned()], [1, 0, 1]));
+    assert_eq!(avx2, (vec!["vectorize_avx2 calls drape..shade".to_owned()], [1, 0, 1]));
     let avx512 = slow_in(&functions, "vectorize_avx512");
     let expected = "vectorize_avx512: vmaskmovps %ymm0,%ymm1,(%rax)".to_owned();
     assert_eq!(avx512, (vec![expected], [1, 1, 1]));
