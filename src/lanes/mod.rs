@@ -19,6 +19,28 @@ use fearless_simd::Simd;
 pub use pair::Pair;
 pub use scalar::F64;
 
+/// What [`Lane`] asks of a type that is a [`Part`] itself.
+macro_rules! is_its_only_part {
+    () => {
+        type Part = Self;
+        const PARTS: usize = 1;
+
+        #[inline(always)]
+        fn from_parts(mut part: impl FnMut(usize) -> Self) -> Self {
+            part(0)
+        }
+        #[inline(always)]
+        fn each_part(self, mut f: impl FnMut(usize, Self)) {
+            f(0, self);
+        }
+        #[inline(always)]
+        fn map_parts(values: [Self; 3], mut f: impl FnMut([Self; 3]) -> [Self; 3]) -> [Self; 3] {
+            f(values)
+        }
+    };
+}
+use is_its_only_part;
+
 /// A number of the fragment stage: + − × ÷, and what follows, all exactly rounded. An operation with a
 /// plain number is that with the number in every lane.
 pub trait Lane:

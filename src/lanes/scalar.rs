@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Part, Whole};
+use super::{Lane, Part, Whole, is_its_only_part};
 
 /// A number of binary64. A type of its own, because `f64` has no operations with plain `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,8 +51,7 @@ macro_rules! one_lane {
     ($lane:ty, $of_double:expr, $number:ident => $value:expr) => {
         impl Lane for $lane {
             type Token = ();
-            type Part = Self;
-            const PARTS: usize = 1;
+            is_its_only_part!();
 
             #[inline(always)]
             fn splat((): (), value: f32) -> Self {
@@ -60,18 +59,6 @@ macro_rules! one_lane {
             }
             #[inline(always)]
             fn token(self) {}
-            #[inline(always)]
-            fn from_parts(mut part: impl FnMut(usize) -> Self) -> Self {
-                part(0)
-            }
-            #[inline(always)]
-            fn each_part(self, mut f: impl FnMut(usize, Self)) {
-                f(0, self);
-            }
-            #[inline(always)]
-            fn map_parts(values: [Self; 3], mut f: impl FnMut([Self; 3]) -> [Self; 3]) -> [Self; 3] {
-                f(values)
-            }
             #[inline(always)]
             fn sqrt(self) -> Self {
                 let $number = self;

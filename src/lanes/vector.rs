@@ -5,14 +5,13 @@ use fearless_simd::{
     f64x8, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16,
 };
 
-use super::{FragmentLanes, Lane, Pair, Part, Whole};
+use super::{FragmentLanes, Lane, Pair, Part, Whole, is_its_only_part};
 
 macro_rules! vector {
     ($vector:ident, $double:ident, $whole:ident, $key:ident, $width:literal, $transpose:ident) => {
         impl<S: FragmentLanes> Lane for $vector<S> {
             type Token = S;
-            type Part = Self;
-            const PARTS: usize = 1;
+            is_its_only_part!();
 
             #[inline(always)]
             fn splat(token: S, value: f32) -> Self {
@@ -21,18 +20,6 @@ macro_rules! vector {
             #[inline(always)]
             fn token(self) -> S {
                 self.simd
-            }
-            #[inline(always)]
-            fn from_parts(mut part: impl FnMut(usize) -> Self) -> Self {
-                part(0)
-            }
-            #[inline(always)]
-            fn each_part(self, mut f: impl FnMut(usize, Self)) {
-                f(0, self);
-            }
-            #[inline(always)]
-            fn map_parts(values: [Self; 3], mut f: impl FnMut([Self; 3]) -> [Self; 3]) -> [Self; 3] {
-                f(values)
             }
             #[inline(always)]
             fn sqrt(self) -> Self {

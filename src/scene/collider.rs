@@ -14,7 +14,7 @@ use super::json::scalar::Count;
 use crate::math::Vec3;
 
 /// Largest latitude and longitude count of a ball. 254 such balls and the largest cloth are fewer
-/// primitives than the rasteriser can number (see `raster::assemble`).
+/// primitives than the rasteriser can number (see `raster::handle`).
 pub const MAX_RESOLUTION: u32 = 1000;
 
 /// The list of colliders: a row is a kind with its meaning, its key in a scene file and the plural of its

@@ -193,24 +193,8 @@ fn no_such_place(step: &Step, path: &str, kind: &str) -> Finding {
 
 #[cfg(test)]
 mod tests {
+    use super::super::json::testing::{node, plain};
     use super::*;
-
-    fn node(text: &str) -> Node {
-        let mut diagnostics = Diagnostics::default();
-        let source = diagnostics.add_source("x.json", text);
-        parse(&mut diagnostics, source, 0).unwrap()
-    }
-
-    fn plain(node: &Node) -> serde_json::Value {
-        match &node.json {
-            Json::Null => serde_json::Value::Null,
-            Json::Bool(value) => (*value).into(),
-            Json::Number(value) => (*value).into(),
-            Json::Text(text) => text.as_str().into(),
-            Json::List(items) => items.iter().map(plain).collect(),
-            Json::Object(members) => members.iter().map(|m| (m.key.clone(), plain(&m.value))).collect(),
-        }
-    }
 
     fn after(text: &str, set: &str) -> String {
         let mut diagnostics = Diagnostics::default();

@@ -40,26 +40,8 @@ fn merged_member(old: Option<Member>, change: Member) -> Option<Member> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::diagnostic::Diagnostics;
-    use super::super::parse::parse;
+    use super::super::testing::{node, plain};
     use super::*;
-
-    fn node(text: &str) -> Node {
-        let mut diagnostics = Diagnostics::default();
-        let source = diagnostics.add_source("x.json", text);
-        parse(&mut diagnostics, source, 0).unwrap()
-    }
-
-    fn plain(node: &Node) -> serde_json::Value {
-        match &node.json {
-            Json::Null => serde_json::Value::Null,
-            Json::Bool(value) => (*value).into(),
-            Json::Number(value) => (*value).into(),
-            Json::Text(text) => text.as_str().into(),
-            Json::List(items) => items.iter().map(plain).collect(),
-            Json::Object(members) => members.iter().map(|m| (m.key.clone(), plain(&m.value))).collect(),
-        }
-    }
 
     #[test]
     fn merge_gives_every_example_of_rfc_7396() {

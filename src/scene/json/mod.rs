@@ -22,3 +22,5 @@ mod snippet;
 pub(crate) mod span;
 pub(crate) mod suggest;
 pub(crate) mod text;
+#[cfg(test)]
+pub(crate) mod testing;
