@@ -1,7 +1,8 @@
 //! A shader of your own: a toon look, which no scene file has, on a cloth that has fallen on a ball.
 //!
-//! `cargo run --release --example own_shader -- toon.png` draws it. Two programs are all there is to a shader; one that scene files should have goes into the engine instead: `src/shader/` has a pair of
-//! files for each, and `src/scene/shader.rs` a row.
+//! `cargo run --release --example own_shader -- toon.png` draws it. Two programs are all there is to a shader. One
+//! that scene files should have goes into the engine instead: `src/shader/` has a pair of files for each, and
+//! `src/scene/shader.rs` a row.
 
 #![expect(clippy::print_stdout, reason = "the example shows a number")]
 
@@ -32,9 +33,11 @@ drape::fragment_program! {
 }
 
 fn main() -> Result<()> {
-    let scene = load_stock("scenes/sphere.json".as_ref(), &Overrides::default())?.scene;
+    // The camera of the report's figures, which shows the whole cloth.
+    let overrides = Overrides { patches: vec!["scenes/look/draped.json".into()], ..Overrides::default() };
+    let scene = load_stock("scenes/sphere.json".as_ref(), &overrides)?.scene;
     let mut simulation = Simulation::new(&scene)?;
-    for _ in 0..60 {
+    for _ in 0..150 {
         simulation.advance_frame()?;
     }
     let needs = Needs::of(Shader::Phong);
@@ -48,7 +51,7 @@ fn main() -> Result<()> {
         let gl_position = drape::glsl::transform(&camera.view_projection, v_position, 1.0);
         (gl_position, Toon { v_position: v_position.into(), v_normal: a.in_normal.into() })
     };
-    let fragment_program = ToonFragment { u_color: [0.9, 0.5, 0.2], u_light_pos: [0.5, 2.0, 2.0] };
+    let fragment_program = ToonFragment { u_color: [0.9, 0.5, 0.2], u_light_pos: [2.0, 1.5, 1.0] };
 
     let triangles = Primitives::Triangles(&mesh.triangles);
     let count = mesh.positions.len();
