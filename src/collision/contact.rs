@@ -76,9 +76,7 @@ impl Chunk<'_> {
         for start in (0..self.pinned.len()).step_by(BLOCK) {
             let block = start..(start + BLOCK).min(self.pinned.len());
             if self.any_hit(shape, block.clone()) {
-                for p in block {
-                    moves += u64::from(self.resolve_point(shape, p));
-                }
+                moves += self.resolve_block(shape, block);
             }
         }
         moves
@@ -98,16 +96,22 @@ impl Chunk<'_> {
         any
     }
 
-    /// Resolves the contact of point `p`, if it is free and hit `shape`; whether it was.
-    #[inline(always)]
-    fn resolve_point(&mut self, shape: &(impl Shape + ?Sized), p: usize) -> bool {
-        let x = Vec3::from(self.x.each_ref().map(|x| x[p]));
-        let last = Vec3::from(self.last.map(|last| last[p]));
-        let resolves = !self.pinned[p] && shape.hit(x, last);
-        if resolves {
-            let point = shape.resolve(x, last);
-            self.x.iter_mut().zip(&point).for_each(|(x, &to)| x[p] = to);
+    /// Resolves the contacts of the points `block` that are free and hit `shape`; how many they are.
+    ///
+    /// Apart from the loop over the blocks, because the compiler would make stores of a part of a vector
+    /// of it, which are slow on some CPUs.
+    #[inline(never)]
+    fn resolve_block(&mut self, shape: &(impl Shape + ?Sized), block: Range<usize>) -> u64 {
+        let mut moves = 0;
+        for p in block {
+            let x = Vec3::from(self.x.each_ref().map(|x| x[p]));
+            let last = Vec3::from(self.last.map(|last| last[p]));
+            if !self.pinned[p] && shape.hit(x, last) {
+                let point = shape.resolve(x, last);
+                self.x.iter_mut().zip(&point).for_each(|(x, &to)| x[p] = to);
+                moves += 1;
+            }
         }
-        resolves
+        moves
     }
 }

@@ -71,9 +71,10 @@ fn functions(text: impl BufRead) -> BTreeMap<u64, Function> {
 }
 
 /// What hot loops may call although it is compiled for the baseline, because it is seldom reached: panics,
-/// lines, the list of a tile, springs over the stretch limit, powers that are not whole. Nothing else of the
+/// lines, the list of a tile, springs over the stretch limit, points that hit an object, powers that are not whole. Nothing else of the
 /// project may be called.
-const COLD: [&str; 6] = ["core..panicking", "core9panicking", "draw_line", "in_tile", "shorten", "4math3pow"];
+const COLD: [&str; 7] =
+    ["core..panicking", "core9panicking", "draw_line", "in_tile", "shorten", "resolve_block", "4math3pow"];
 
 /// What is slow in the copies for a level, how many of them there are, and their narrow and wide divisions.
 fn slow_in(functions: &BTreeMap<u64, Function>, level: &str) -> (Vec<String>, [usize; 3]) {
