@@ -6,7 +6,7 @@ use crate::{
     cloth::grid::{Grid, start_of},
     error::{Error, Kind, Result},
     math::{sin_cos_degrees, tan},
-    scene::{Camera as Settings, Cloth, Scene, Vec3},
+    scene::{self, Camera as Settings, Cloth, Scene, Vec3},
 };
 
 /// A scene without a cloth is seen as if the stock cloth (1 m × 1 m, at y = 1) were there.
@@ -31,22 +31,10 @@ impl Camera {
     /// A cloth that does not fit in memory; a distance that is lost in the target's rounding.
     pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
-        let target = match (settings.target, &scene.cloth) {
-            (Some(target), _) => target,
-            (None, Some(cloth)) => default_target(cloth)?,
-            (None, None) => TARGET_WITHOUT_CLOTH,
-        };
-        let distance = settings.distance.unwrap_or_else(|| default_distance(scene.cloth.as_ref()));
-        let (sin_polar, cos_polar) = sin_cos_degrees(settings.polar);
-        let (sin_azimuth, cos_azimuth) = sin_cos_degrees(settings.azimuth);
-        let direction = Vector3::new(sin_polar * sin_azimuth, cos_polar, sin_polar * cos_azimuth);
+        let target = target(scene)?;
+        let distance = scene::distance(settings, scene.cloth.as_ref());
+        let (direction, up) = orbit(settings);
         let eye = target + direction * distance;
-        // Looking straight along y leaves the picture's up to the limit of a small tilt.
-        let up = if sin_polar == 0.0 {
-            Vector3::new(-cos_polar * sin_azimuth, 0.0, -cos_polar * cos_azimuth)
-        } else {
-            Vector3::y()
-        };
         if eye == target {
             return Err(Error::new(Kind::Scene, "the camera stands in its target")
                 .with_help("raise camera.distance, or move camera.target nearer to the origin"));
@@ -55,6 +43,92 @@ impl Camera {
         let product = projection(settings, width / height) * view(&eye, &target, &up);
         Ok(Self { view_projection: columns(&product), position: [eye.x, eye.y, eye.z].map(round) })
     }
+}
+
+impl Camera {
+    /// The camera that `camera.fit` asks for: `points` just fit into the picture, with a margin. Where the near or the
+    /// far plane of the scene would cut them, or leave no depths to tell them apart by, it is moved.
+    ///
+    /// # Errors
+    /// As [`Camera::of`].
+    pub fn fitting(scene: &Scene, points: &[Vec3]) -> Result<Self> {
+        let mut scene = scene.clone();
+        let (direction, up) = orbit(&scene.camera);
+        let x = unit(up.cross(&direction));
+        let y = direction.cross(&x);
+        let largest = |of: &dyn Fn(&Vec3) -> f64| points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let [width, height] = scene.render.size.map(f64::from);
+        let vertical = tan_half_vfov(&scene.camera, width / height);
+        // From a distance d the picture reaches from -tan (d - z) to tan (d - z) at depth z.
+        let along = |axis: Vec3, tan: f64| {
+            let high = largest(&|point| point.dot(&axis) + tan * point.dot(&direction));
+            let low = largest(&|point| -point.dot(&axis) + tan * point.dot(&direction));
+            ((high - low) / 2.0, (high + low) / (2.0 * tan))
+        };
+        let (right, by_width) = along(x, vertical * width / height);
+        let (above, by_height) = along(y, vertical);
+        let (front, back) = (largest(&|point| point.dot(&direction)), -largest(&|point| -point.dot(&direction)));
+        let from = front + (by_width.max(by_height) - front).max((front - back) * 1e-3).max(1e-9) * FIT_MARGIN;
+        // The target lies in the middle of what is seen, in depth too.
+        let middle = (front + back) / 2.0;
+        scene.camera.target = Some(x * right + y * above + direction * middle);
+        let distance = from - middle;
+        scene.camera.distance = Some(distance);
+        let nearest = from - front;
+        if scene.camera.near > nearest || scene.camera.near < distance * LEAST_NEAR {
+            scene.camera.near = (distance * 1e-3).min(nearest / 2.0);
+        }
+        scene.camera.far = scene.camera.far.max(2.0 * (from - back));
+        Self::of(&scene)
+    }
+}
+
+/// How much farther away the camera stands than where what it shows would touch the edge of the picture.
+const FIT_MARGIN: f64 = 1.05;
+
+/// Part of the distance below which a near plane leaves too few depths.
+const LEAST_NEAR: f64 = 1.0 / 16_384.0;
+
+/// How much farther than the camera's distance its target must be from the origin for the origin to be moved there.
+const FAR_AWAY: f64 = 256.0;
+
+/// The point that is drawn as the origin. It is the origin itself, unless the camera's target has a coordinate of
+/// more than 256 times the camera's distance: there the rounding of world coordinates to 32 bits would show (at 1024 x
+/// 800 pixels from 1/40 of a pixel on), so the target is subtracted first, in 64 bits.
+///
+/// # Errors
+/// A cloth that does not fit in memory.
+pub fn origin(scene: &Scene) -> Result<Vec3> {
+    let target = target(scene)?;
+    let distance = scene::distance(&scene.camera, scene.cloth.as_ref());
+    let away = target.iter().map(|c| c.abs()).fold(0.0, f64::max);
+    Ok(if away > FAR_AWAY * distance { target } else { Vec3::zeros() })
+}
+
+/// The target that is given, or that of the report.
+///
+/// # Errors
+/// A cloth that does not fit in memory.
+pub fn target(scene: &Scene) -> Result<Vec3> {
+    match (scene.camera.target, &scene.cloth) {
+        (Some(target), _) => Ok(target),
+        (None, Some(cloth)) => default_target(cloth),
+        (None, None) => Ok(TARGET_WITHOUT_CLOTH),
+    }
+}
+
+/// The direction from the target to the eye, and a direction that is up in the picture.
+fn orbit(settings: &Settings) -> (Vec3, Vec3) {
+    let (sin_polar, cos_polar) = sin_cos_degrees(settings.polar);
+    let (sin_azimuth, cos_azimuth) = sin_cos_degrees(settings.azimuth);
+    let direction = Vector3::new(sin_polar * sin_azimuth, cos_polar, sin_polar * cos_azimuth);
+    // Looking straight along y leaves the picture's up to the limit of a small tilt.
+    let up = if sin_polar == 0.0 {
+        Vector3::new(-cos_polar * sin_azimuth, 0.0, -cos_polar * cos_azimuth)
+    } else {
+        Vector3::y()
+    };
+    (direction, up)
 }
 
 /// World space to eye space: the eye at the origin, looking along -z.
@@ -84,9 +158,7 @@ fn view(eye: &Vec3, target: &Vec3, up: &Vec3) -> Matrix4<f64> {
 
 /// Eye space to clip space. Whichever field of view is too small for `aspect` is widened.
 fn projection(settings: &Settings, aspect: f64) -> Matrix4<f64> {
-    let half = |degrees: f64| tan(degrees * (std::f64::consts::PI / 360.0));
-    let tan_half_vfov = half(settings.vfov).max(half(settings.hfov) / aspect);
-    let k = 1.0 / tan_half_vfov;
+    let k = 1.0 / tan_half_vfov(settings, aspect);
     let (n, f) = (settings.near, settings.far);
     Matrix4::new(
         k / aspect,
@@ -108,17 +180,18 @@ fn projection(settings: &Settings, aspect: f64) -> Matrix4<f64> {
     )
 }
 
+/// The tangent of half of the vertical field of view that is drawn.
+fn tan_half_vfov(settings: &Settings, aspect: f64) -> f64 {
+    let half = |degrees: f64| tan(degrees * (std::f64::consts::PI / 360.0));
+    half(settings.vfov).max(half(settings.hfov) / aspect)
+}
+
 /// The mean of the starting points, at half its height.
 fn default_target(cloth: &Cloth) -> Result<Vec3> {
     let grid = Grid::new(cloth)?;
     let sum = (0..grid.len()).fold(Vec3::zeros(), |sum, point| sum + start_of(cloth, grid, point));
     let mean = sum / grid.len() as f64;
     Ok(Vec3::new(mean.x, mean.y / 2.0, mean.z))
-}
-
-/// 1.8 times the larger side of the cloth, in metres.
-fn default_distance(cloth: Option<&Cloth>) -> f64 {
-    1.8 * cloth.map_or(1.0, |cloth| cloth.width.max(cloth.height))
 }
 
 fn unit(v: Vec3) -> Vec3 {

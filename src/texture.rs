@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use crate::error::{Error, Kind, Result};
@@ -22,13 +23,15 @@ pub struct Texture {
     width: usize,
     height: usize,
     texels: Vec<[f32; 4]>,
+    transparent: bool,
 }
 
 impl Texture {
     /// Decodes a PNG or JPEG of at most [`MAX_SIDE`] a side and [`MAX_TEXELS`] in all.
     ///
     /// Every sample becomes c / 255 (or c / 65535 at 16 bits), rounded once to `f32`. Grey fills
-    /// all three channels. Alpha, gamma, colour profiles and Exif rotation are left out. A JPEG has
+    /// all three channels. The picture is turned and mirrored as its Exif data say. Alpha, gamma and colour profiles
+    /// are left out. A JPEG has
     /// no checksum, so damage inside its coded data can pass for a picture.
     ///
     /// # Errors
@@ -50,22 +53,26 @@ impl Texture {
         let mut limits = Limits::default();
         limits.max_alloc = Some(MAX_DECODER_BYTES);
         reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
+        let mut decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
         let (width, height) = decoder.dimensions();
         if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_TEXELS {
             return Err(invalid(&format_args!("{width} x {height} is too large")));
         }
-        let image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
+        let orientation = orientation(&mut decoder, bytes).map_err(|error| invalid(&error))?;
+        let mut image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
+        image.apply_orientation(orientation);
         Ok(Self::from_image(image))
     }
 
     /// Eight bits widen to sixteen as 257 c, and 257 c / 65535 = c / 255: nothing is rounded twice.
     fn from_image(image: DynamicImage) -> Self {
+        let has_alpha = image.color().has_alpha();
+        let transparent = has_alpha && image.to_rgba16().pixels().any(|pixel| pixel[3] != u16::MAX);
         let image = image.into_rgb16();
         let (width, height) = (image.width() as usize, image.height() as usize);
         let unit = |sample: u16| f32::from(sample) / 65535.0;
         let texels = image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]).collect();
-        Self { width, height, texels }
+        Self { width, height, texels, transparent }
     }
 
     /// A texture of `width` × `height` from RGB in 0..=1, row by row from the top.
@@ -77,7 +84,13 @@ impl Texture {
             let message = format!("a texture of {width} x {height} from {} texels", rgb.len());
             return Err(Error::new(Kind::Internal, message));
         }
-        Ok(Self { width, height, texels: rgb.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect() })
+        let texels = rgb.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
+        Ok(Self { width, height, texels, transparent: false })
+    }
+
+    /// Whether the file had transparent pixels, which are drawn opaque.
+    pub fn was_transparent(&self) -> bool {
+        self.transparent
     }
 
     /// Texels in a row, at least 1.
@@ -103,6 +116,32 @@ impl Texture {
     /// All texels, row by row from the top.
     pub fn texels(&self) -> &[[f32; 4]] {
         &self.texels
+    }
+}
+
+/// How a picture is to be turned and mirrored before it is shown, by the Exif data of `bytes`, which `decoder`
+/// decodes. In a PNG they may stand after the pixels (chunk `eXIf`), where the decoder does not look.
+///
+/// # Errors
+/// Those of the decoder.
+pub fn orientation(decoder: &mut impl ImageDecoder, bytes: &[u8]) -> image::ImageResult<Orientation> {
+    let found = decoder.orientation()?;
+    let late = || Orientation::from_exif_chunk(png_chunk(bytes, *b"eXIf")?);
+    Ok(if found == Orientation::NoTransforms { late().unwrap_or(found) } else { found })
+}
+
+/// The content of the first chunk of a PNG with this name.
+fn png_chunk(bytes: &[u8], name: [u8; 4]) -> Option<&[u8]> {
+    let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
+    loop {
+        let (length, after) = rest.split_first_chunk::<4>()?;
+        let (kind, content) = after.split_first_chunk::<4>()?;
+        let length = usize::try_from(u32::from_be_bytes(*length)).ok()?;
+        if *kind == name {
+            return content.get(..length);
+        }
+        // A checksum of four bytes follows.
+        rest = content.get(length.checked_add(4)?..)?;
     }
 }
 

@@ -1,7 +1,21 @@
 //! The mesh of a plane: a square.
+//!
+//! Its picture is 4 m wide, lies in its middle and repeats. Seen from the side of the normal, words on it are
+//! readable, and upright for a camera of azimuth 0: up is -z on a floor, +z on a ceiling, and +y on a wall (any
+//! plane steeper than 45 degrees).
 
-use super::{Mesh, in_plane, round, unit};
+use super::{Mesh, in_plane, round, to_f32, unit};
 use crate::scene::{Needs, Plane, Vec3};
+
+/// Length of the sides, and of those of the picture, in metres.
+const SIDE: f64 = 4.0;
+
+/// The direction in a plane of unit normal `n` that is up in its picture, unit.
+fn upwards(n: &Vec3) -> Vec3 {
+    let flat = n.y * n.y >= 0.5;
+    let up = if flat { Vec3::new(0.0, 0.0, -n.y.signum()) } else { Vec3::new(0.0, 1.0, 0.0) };
+    unit(up - n * up.dot(n))
+}
 
 impl Mesh {
     /// The 4 m × 4 m square of a plane, a strip of two triangles around its point.
@@ -9,13 +23,16 @@ impl Mesh {
         let n = unit(plane.normal);
         let p = in_plane(&n);
         let c = n.cross(&p);
-        let corners = [c + p, c - p, -c + p, -c - p].map(|side| round(plane.point + side * 2.0));
+        let sides = [c + p, c - p, -c + p, -c - p].map(|side| side * SIDE / 2.0);
+        let up = upwards(&n);
+        let right = up.cross(&n);
+        let uv = |side: Vec3| [0.5 + side.dot(&right) / SIDE, 0.5 - side.dot(&up) / SIDE].map(to_f32);
         let per_corner = |read: bool, value: Vec3| if read { vec![round(value); 4] } else { Vec::new() };
         Self {
-            positions: corners.to_vec(),
+            positions: sides.map(|side| round(plane.point + side)).to_vec(),
             normals: per_corner(needs.normal, n),
-            tangents: per_corner(needs.tangent, -p),
-            uvs: if needs.uv { vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] } else { Vec::new() },
+            tangents: per_corner(needs.tangent, right),
+            uvs: if needs.uv { sides.map(uv).to_vec() } else { Vec::new() },
             triangles: vec![[0, 1, 2], [2, 1, 3]],
         }
     }

@@ -21,22 +21,44 @@ impl Difference {
     /// Compares two pictures; the result does not depend on their order. When the sizes differ,
     /// every pixel of the smallest rectangle that holds both counts as different by 255.
     pub fn between(expected: &Pixels, actual: &Pixels) -> Self {
+        Self::between_where(expected, actual, |_| true)
+    }
+
+    /// As [`Difference::between`], over the pixels for whose index `counts` is true: the others are left out
+    /// of everything. It is not asked when the sizes differ.
+    pub fn between_where(expected: &Pixels, actual: &Pixels, counts: impl Fn(usize) -> bool) -> Self {
         let mut histogram = vec![0; 256];
         if !same_size(expected, actual) {
             let [width, height] = common_size(expected, actual);
             histogram[255] = u64::from(width) * u64::from(height);
             return Self { histogram, rmse: 255.0 };
         }
-        let mut squares = 0_u64;
-        for (e, a) in expected.rgba.iter().zip(&actual.rgba) {
+        let (mut squares, mut pixels, mut opaque) = (0_u64, 0_u64, true);
+        let pairs = expected.rgba.iter().zip(&actual.rgba).enumerate().filter(|(i, _)| counts(*i));
+        for (_, (e, a)) in pairs {
             histogram[usize::from(magnitude(e, a))] += 1;
             squares += channel_differences(e, a).map(|d| u64::from(d) * u64::from(d)).iter().sum::<u64>();
+            opaque &= e[3] == 255 && a[3] == 255;
+            pixels += 1;
         }
-        let opaque = expected.rgba.iter().chain(&actual.rgba).all(|pixel| pixel[3] == 255);
         let channels = if opaque { 3 } else { 4 };
         #[expect(clippy::cast_precision_loss, reason = "a sum over at most 2^28 pixels fits in 53 bits")]
-        let mean = squares as f64 / (channels * expected.rgba.len()).max(1) as f64;
+        let mean = squares as f64 / (channels * pixels).max(1) as f64;
         Self { histogram, rmse: mean.sqrt() }
+    }
+
+    /// The difference of several pairs of pictures as one: counts add up, and the mean is over all pixels.
+    pub fn joined(differences: &[Self]) -> Self {
+        let mut histogram = vec![0; 256];
+        let (mut squares, mut pixels) = (0.0, 0.0);
+        for difference in differences {
+            histogram.iter_mut().zip(&difference.histogram).for_each(|(sum, count)| *sum += count);
+            #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 pixels")]
+            let count = difference.pixels() as f64;
+            squares += difference.rmse * difference.rmse * count;
+            pixels += count;
+        }
+        Self { histogram, rmse: if pixels > 0.0 { (squares / pixels).sqrt() } else { 0.0 } }
     }
 
     /// Number of pixels compared.
@@ -67,7 +89,7 @@ impl Difference {
         let mut from = 1;
         for budget in sorted {
             let next = usize::from(budget.magnitude) + 1;
-            if self.count(from..next.max(from)) > budget.count {
+            if self.count(from..next.max(from)) > budget.count.of(self.pixels()) {
                 return false;
             }
             from = next;
@@ -81,24 +103,61 @@ impl Difference {
 }
 
 /// How many pixels may differ by at most a magnitude.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
     /// The largest magnitude that counts here, 1..=255.
     pub magnitude: u8,
-    /// The number of pixels allowed.
-    pub count: u64,
+    /// The pixels allowed.
+    pub count: Allowed,
+}
+
+/// A number of pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Allowed {
+    /// So many.
+    Pixels(u64),
+    /// So many of a hundred that are compared, rounded down; 0..=100.
+    Percent(f64),
+}
+
+impl Allowed {
+    /// How many of `pixels` these are.
+    fn of(self, pixels: u64) -> u64 {
+        match self {
+            Self::Pixels(count) => count,
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "from 0 to the number of pixels"
+            )]
+            Self::Percent(percent) => (pixels as f64 * percent / 100.0) as u64,
+        }
+    }
 }
 
 impl FromStr for Budget {
     type Err = String;
 
-    /// Reads `MAGNITUDE:COUNT`, such as `2:100`.
+    /// Reads `MAGNITUDE:COUNT` such as `2:100` or `2:0.5%`, or a percentage alone for any magnitude.
     fn from_str(text: &str) -> Result<Self, String> {
-        let wanted =
-            || format!("`{text}` is not MAGNITUDE:COUNT such as 2:100, with a magnitude of 1 to 255");
-        let (magnitude, count) = text.split_once(':').ok_or_else(wanted)?;
+        let wanted = || {
+            format!(
+                "`{text}` is neither MAGNITUDE:COUNT such as 2:100 or 2:0.5%, with a magnitude of 1 to 255, nor a \
+                 percentage such as 0.1%"
+            )
+        };
+        let (magnitude, count) = text.split_once(':').unwrap_or(("255", text));
         let magnitude = magnitude.parse().ok().filter(|&m| m > 0).ok_or_else(wanted)?;
-        Ok(Self { magnitude, count: count.parse().map_err(|_| wanted())? })
+        let count = match count.strip_suffix('%') {
+            Some(percent) => {
+                let percent = percent.parse().ok().filter(|percent| (0.0..=100.0).contains(percent));
+                Allowed::Percent(percent.ok_or_else(wanted)?)
+            }
+            None if text.contains(':') => Allowed::Pixels(count.parse().map_err(|_| wanted())?),
+            None => return Err(wanted()),
+        };
+        Ok(Self { magnitude, count })
     }
 }
 

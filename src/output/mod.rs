@@ -1,6 +1,9 @@
 //! What leaves the program, as bytes: pictures, meshes, raw numbers, and the comparison of pictures.
 
-pub mod compare;
-pub mod obj;
 pub mod png;
+pub mod compare;
+pub mod part;
+pub mod obj;
+pub mod ply;
+pub mod gltf;
 pub mod raw;

@@ -45,6 +45,9 @@ pub(super) struct FragmentList {
     pub(super) weights: Vec<u8>,
     /// The primitives.
     pub(super) primitives: Vec<Handle>,
+    /// Where in the pixel it is shaded: 0 for its centre, else one more than the number of a sample. Empty where
+    /// pixels have one sample.
+    pub(super) places: Vec<u8>,
     /// Colours, one plane a channel, 0..=1: what the fragment stage puts out.
     pub(super) colors: [Vec<f32>; 3],
 }
@@ -58,6 +61,7 @@ impl FragmentList {
         self.pixels.resize(room, 0);
         self.weights.resize(room, 0);
         self.primitives.resize(room, 0);
+        self.places.resize(if samples == 1 { 0 } else { room }, 0);
         for plane in &mut self.colors {
             plane.resize(room, 0.0);
         }
@@ -99,8 +103,13 @@ impl FragmentList {
         self.len = len;
     }
 
-    /// Adds the primitives that the samples of a pixel see, each once.
-    pub(super) fn add_pixel(&mut self, pixel: usize, seen: impl Iterator<Item = Handle>) {
+    /// Adds the primitives that the samples of a pixel see, each once, to be shaded at its `place`.
+    pub(super) fn add_pixel(
+        &mut self,
+        pixel: usize,
+        seen: impl Iterator<Item = Handle>,
+        place: impl Fn(Handle) -> u8,
+    ) {
         let first = self.len;
         for primitive in seen {
             let known = &self.primitives[first..self.len];
@@ -110,14 +119,18 @@ impl FragmentList {
                 self.add(pixel, primitive, 1);
             }
         }
+        for i in first..self.len {
+            self.places[i] = place(self.primitives[i]);
+        }
     }
 
-    /// Adds a primitive that `samples` (at most 16) samples of a pixel see.
+    /// Adds a primitive that `samples` (at most 16) of several samples of a pixel see, to be shaded at the centre.
     #[expect(clippy::cast_possible_truncation, reason = "at most 16")]
     pub(super) fn add(&mut self, pixel: usize, primitive: Handle, samples: usize) {
         self.pixels[self.len] = pixel_number(pixel);
         self.weights[self.len] = samples as u8;
         self.primitives[self.len] = primitive;
+        self.places[self.len] = 0;
         self.len += 1;
     }
 
@@ -127,7 +140,16 @@ impl FragmentList {
         let (pixel, primitive) = (self.pixels[last], self.primitives[last]);
         let rest = self.len..self.len.next_multiple_of(MAX_LANES);
         self.pixels[rest.clone()].fill(pixel);
-        self.primitives[rest].fill(primitive);
+        self.primitives[rest.clone()].fill(primitive);
+        if let Some(&place) = self.places.get(last) {
+            self.places[rest].fill(place);
+        }
+    }
+
+    /// The places of a range of fragments; empty where all are shaded at the centre.
+    #[inline(always)]
+    pub(super) fn places(&self, range: Range<usize>) -> &[u8] {
+        self.places.get(range).unwrap_or_default()
     }
 
     /// The pixels, filled up to whole blocks.

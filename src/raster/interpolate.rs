@@ -1,4 +1,4 @@
-//! Interpolation of varyings at pixel centres.
+//! Interpolation of varyings at pixel centres, or at a sample of the pixel where the centre may lie outside.
 //!
 //! Barycentric coordinates l are computed in f64 from the unsnapped window positions, rounded
 //! once, and weighted with 1/w: a = Σ lᵢ·rᵢ·aᵢ / Σ lᵢ·rᵢ. Inside the triangle all weights are
@@ -9,6 +9,7 @@ use super::{
     assemble::Chunk,
     fragments::TILE_SIDE,
     handle::{Handle, unpack},
+    samples,
     setup::Triangle,
     vertex::VertexBuffer,
 };
@@ -18,6 +19,8 @@ use crate::lanes::Part;
 pub(super) struct ShadeInput<'a> {
     /// Window position (y up) of the centre of the tile's first pixel.
     pub(super) origin: [f32; 2],
+    /// Samples of a pixel.
+    pub(super) samples: usize,
     pub(super) chunks: &'a [Chunk],
     pub(super) vertices: &'a VertexBuffer,
 }
@@ -44,12 +47,13 @@ impl<'a, const N: usize> Interpolator<'a, N> {
         token: P::Token,
         pixels: &[u16],
         primitives: &[Handle],
+        places: &[u8],
     ) -> [P; N] {
         let mut result = [P::splat(token, 0.0); N];
         if N == 0 {
             return result;
         }
-        let position = self.positions::<P>(token, pixels);
+        let position = self.positions::<P>(token, pixels, places);
         let (first, mut previous) = (primitives[0], 0);
         let alone = primitives.iter().fold(true, |all, &other| all & (other == first));
         for (i, &primitive) in primitives.iter().enumerate().take(if alone { 1 } else { P::WIDTH }) {
@@ -70,9 +74,9 @@ impl<'a, const N: usize> Interpolator<'a, N> {
         result
     }
 
-    /// The window positions of the centres of pixels.
+    /// The window positions of the centres of pixels, or of other `places` in them.
     #[inline(always)]
-    fn positions<P: Part>(&self, token: P::Token, pixels: &[u16]) -> [P::Double; 2] {
+    fn positions<P: Part>(&self, token: P::Token, pixels: &[u16], places: &[u8]) -> [P::Double; 2] {
         let [x, y] = self.input.origin;
         let columns = P::double_from_fn(
             token,
@@ -84,7 +88,26 @@ impl<'a, const N: usize> Interpolator<'a, N> {
             #[inline(always)]
             |i| f64::from(pixels[i] / TILE_SIDE),
         );
-        [P::double(token, x.into()) + columns, P::double(token, y.into()) - rows]
+        let centres = [P::double(token, x.into()) + columns, P::double(token, y.into()) - rows];
+        if places.is_empty() {
+            return centres;
+        }
+        let [right, down] = [0, 1].map(|axis| {
+            P::double_from_fn(
+                token,
+                #[inline(always)]
+                |i| self.shift(places[i], axis),
+            )
+        });
+        [centres[0] + right, centres[1] - down]
+    }
+
+    /// How far a place is from the pixel's centre, x right and y down, in pixels.
+    #[inline(always)]
+    fn shift(&self, place: u8, axis: usize) -> f64 {
+        let sample = usize::from(place).checked_sub(1);
+        let position = sample.map_or(8, |sample| samples::positions(self.input.samples)[sample][axis]);
+        f64::from(position - 8) / 16.0
     }
 
     /// The planes of a triangle.

@@ -35,7 +35,7 @@ pub(super) fn shade<L: Lane, const N: usize>(
         for (i, varyings) in varyings.iter_mut().enumerate().take(L::PARTS) {
             let part = first + i * width..first + (i + 1) * width;
             *varyings =
-                interpolator.varyings::<L::Part>(token, &list.pixels[part.clone()], &list.primitives[part]);
+                interpolator.varyings::<L::Part>(token, &list.pixels[part.clone()], &list.primitives[part.clone()], list.places(part));
         }
         let color = stage(Varyings::from_numbers(
             #[inline(always)]

@@ -1,6 +1,8 @@
 //! One tile from clear to stored colour: visibility of all primitives, then shading of what is seen.
 //!
-//! A primitive is shaded once per pixel, at the pixel's centre, however many samples it has there.
+//! A primitive is shaded once per pixel, however many samples it has there: at the pixel's centre if it covers all
+//! samples, else at the first that it covers, so that varyings are never taken from beyond its edge (OpenGL's
+//! `centroid`).
 
 use std::{mem::take, ops::Range};
 
@@ -15,9 +17,9 @@ use super::{
     resolve::{self, Pixels},
     setup::Viewport,
     stats::TileStats,
-    tiling::TILE_PIXELS,
+    tiling::{TILE, TILE_PIXELS},
     timing::Clock,
-    triangle::{TileBounds, draw_triangle},
+    triangle::{TileBounds, draw_triangle, first_covered},
     vertex::VertexBuffer,
 };
 use crate::lanes::{
@@ -113,7 +115,7 @@ fn shade_tile(
     let mut fragments = 0;
     for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
         let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
-        collect_fragments(tile, first..last + 1, &pixels.seen, samples, list);
+        collect_fragments(tile, first..last + 1, scene, &pixels.seen, list);
         shade_fragments(tile, scene.chunks[first].call, scene, list);
         if samples == 1 {
             dispatch!(simd => resolve::write_colors(simd, tile, list));
@@ -129,10 +131,11 @@ fn shade_tile(
 fn collect_fragments(
     tile: &Tile,
     chunks: Range<usize>,
+    scene: &TileScene<'_>,
     seen: &[u32],
-    samples: usize,
     list: &mut FragmentList,
 ) {
+    let samples = scene.viewport.samples;
     list.clear(samples);
     let handles = pack(chunks.start, 0)..pack(chunks.end, 0);
     if samples == 1 {
@@ -146,10 +149,23 @@ fn collect_fragments(
                 }
                 continue;
             }
-            list.add_pixel(pixel, samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen)));
+            let seen = samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen));
+            list.add_pixel(pixel, seen, |primitive| place(tile, pixel, primitive, scene));
         }
     }
     list.finish();
+}
+
+/// Where in a pixel a primitive is shaded, as the list counts places.
+fn place(tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) -> u8 {
+    let (chunk, index) = unpack(primitive);
+    let chunk = &scene.chunks[chunk];
+    let Some(triangle) = chunk.triangles.get(index) else { return 0 };
+    let corners = triangle.vertices.map(|vertex| chunk.corner(vertex, &scene.buffers[chunk.call]));
+    let pixel = [tile.left + pixel % TILE, tile.top + pixel / TILE];
+    let first = first_covered(&corners, pixel, scene.viewport.samples);
+    #[expect(clippy::cast_possible_truncation, reason = "at most 16 samples")]
+    first.map_or(0, |first| first as u8 + 1)
 }
 
 /// What each sample of a pixel sees.
@@ -161,7 +177,8 @@ fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item =
 fn shade_fragments(tile: &Tile, call: usize, scene: &TileScene<'_>, list: &mut FragmentList) {
     #[expect(clippy::cast_precision_loss, reason = "pictures are at most 16384 pixels wide")]
     let origin = [tile.left as f32 + 0.5, scene.viewport.height as f32 - (tile.top as f32 + 0.5)];
-    let input = ShadeInput { origin, chunks: scene.chunks, vertices: &scene.buffers[call] };
+    let (samples, chunks) = (scene.viewport.samples, scene.chunks);
+    let input = ShadeInput { origin, samples, chunks, vertices: &scene.buffers[call] };
     scene.calls[call].shade(&input, list);
 }
 

@@ -197,6 +197,28 @@ fn depth_test<S: FragmentLanes>(
     *visible = SimdBase::max(u32x8::load_array(simd, *visible), passed).to_array();
 }
 
+/// The first of the samples of a pixel that a triangle covers; `None` if it covers all of them, or none.
+pub(super) fn first_covered(corners: &[Corner; 3], pixel: [usize; 2], samples: usize) -> Option<usize> {
+    let snapped = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
+    let covered = |position: &[i32; 2]| {
+        let at = |axis: usize| pixel[axis] as i64 * i64::from(SUBPIXELS) + i64::from(position[axis] * (SUBPIXELS / 16));
+        covers(snapped, [at(0), at(1)])
+    };
+    let positions = samples::positions(samples);
+    let first = positions.iter().position(covered)?;
+    (first > 0 || !positions.iter().all(covered)).then_some(first)
+}
+
+/// Whether a triangle covers a point, in 1/256 pixel, y down: the fill rule of [`tile_edge`].
+fn covers([a, b, c]: [[i32; 2]; 3], point: [i64; 2]) -> bool {
+    [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
+        let (column, row) = (i64::from(from[1] - to[1]), i64::from(to[0] - from[0]));
+        let value = column * (point[0] - i64::from(from[0])) + row * (point[1] - i64::from(from[1]));
+        let inclusive = column > 0 || (column == 0 && row < 0);
+        value >= i64::from(!inclusive)
+    })
+}
+
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
 #[inline(always)]
 fn tile_edges(corners: &[Corner; 3], tile: &Tile, offset: [i32; 2]) -> Option<[Edge; 3]> {

@@ -11,7 +11,7 @@ use crate::{
     error::{Error, Kind, Result},
     math::StateHash,
     raster::{self, DrawCall, Framebuffer, Stages, Stats},
-    scene::Scene,
+    scene::{Scene, Vec3},
     texture_source::TextureSource,
 };
 use object::Object;
@@ -66,6 +66,11 @@ impl Renderer {
         self.programs.hash_textures(hash);
     }
 
+    /// The names of the textures that have transparent pixels, which are drawn opaque.
+    pub fn transparent_textures(&self) -> Vec<&str> {
+        self.programs.transparent_textures()
+    }
+
     /// A framebuffer of the scene's size and samples.
     pub fn framebuffer(&self) -> Framebuffer {
         let [width, height] = self.programs.scene.render.size;
@@ -83,7 +88,7 @@ impl Renderer {
 
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
     pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> Stats {
-        let objects = Object::all(&self.programs.scene, points, options.springs);
+        let objects = self.objects(points, options);
         raster::draw(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
     }
 
@@ -94,12 +99,25 @@ impl Renderer {
         points: &Points,
         options: &Options,
     ) -> (Stats, Stages) {
-        let objects = Object::all(&self.programs.scene, points, options.springs);
+        let objects = self.objects(points, options);
         raster::draw_timed(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
     }
 
+    /// What is drawn, with the cloth at `points`.
+    fn objects(&self, points: &Points, options: &Options) -> Vec<Object<'_>> {
+        let Programs { scene, origin, .. } = &self.programs;
+        if *origin == Vec3::zeros() {
+            return Object::all(scene, points, options.springs);
+        }
+        let moved = |values: &[f64], by: f64| values.iter().map(|value| value - by).collect();
+        let Points { x, y, z } = points;
+        let points = Points { x: moved(x, origin.x), y: moved(y, origin.y), z: moved(z, origin.z) };
+        Object::all(scene, &points, options.springs)
+    }
+
     fn calls<'a>(&'a self, objects: &'a [Object<'a>], options: &Options) -> Vec<DrawCall<'a>> {
-        objects.iter().map(|object| self.programs.draw_call(object, options.shading)).collect()
+        let camera = self.programs.camera(objects);
+        objects.iter().map(|object| self.programs.draw_call(object, &camera, options.shading)).collect()
     }
 
     fn background(&self) -> [f32; 3] {

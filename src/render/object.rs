@@ -4,10 +4,12 @@ use super::options::{Shading, round, to_f32};
 use crate::{
     camera::Columns,
     cloth::Points,
+    glsl::{transform, xyz},
     lanes::F64,
     mesh::{Attributes, Mesh, Placement, SpringKinds, spring_lines},
     raster::{DrawCall, FragmentProgram, Primitives, VertexProgram},
-    scene::{Material, Needs, Scene, Shader},
+    scene::{Collider, Material, Needs, Scene, Shader, Vec3},
+    shader::sampler::Wrap,
 };
 
 /// A mesh in the world, and what it looks like.
@@ -16,6 +18,9 @@ pub(super) struct Object<'a> {
     lines: Option<Vec<[u32; 2]>>,
     pub(super) model: Columns,
     pub(super) material: &'a Material,
+    /// What lies above the first row of its textures: the poles of a ball are not neighbours.
+    pub(super) wrap_v: Wrap,
+    pub(super) is_plane: bool,
 }
 
 impl<'a> Object<'a> {
@@ -26,14 +31,25 @@ impl<'a> Object<'a> {
             let lines = (cloth.material.shader == Shader::Wireframe)
                 .then(|| spring_lines(cloth, springs.unwrap_or_else(|| SpringKinds::of(cloth))));
             let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
-            objects.push(Self { mesh, lines, model: model(Placement::WORLD), material: &cloth.material });
+            let (model, material) = (model(Placement::WORLD), &cloth.material);
+            objects.push(Self { mesh, lines, model, material, wrap_v: Wrap::Repeat, is_plane: false });
         }
         for collider in &scene.colliders {
             let material = collider.material();
             let (mesh, placement) = Mesh::collider(collider, Needs::of(material.shader));
-            objects.push(Self { mesh, lines: None, model: model(placement), material });
+            let wrap_v = if matches!(collider, Collider::Sphere(_)) { Wrap::Clamp } else { Wrap::Repeat };
+            let is_plane = matches!(collider, Collider::Plane(_));
+            objects.push(Self { mesh, lines: None, model: model(placement), material, wrap_v, is_plane });
         }
         objects
+    }
+
+    /// Where its vertices are, in metres.
+    pub(super) fn places(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.mesh.positions.iter().map(|&position| {
+            let [x, y, z] = xyz(transform(&self.model, position, 1.0)).map(f64::from);
+            Vec3::new(x, y, z)
+        })
     }
 
     /// The draw call with these programs.

@@ -3,16 +3,16 @@
 use super::object::Object;
 use super::options::{Shading, round, to_f32};
 use crate::{
-    camera::Camera,
+    camera::{self, Camera},
     cubemap::Cubemap,
     error::Result,
     glsl::Exponent,
     math::StateHash,
     raster::DrawCall,
-    scene::{Images, Scene, Shader},
+    scene::{Bitangent, Collider, Images, Scene, Shader, Vec3},
     shader::{
         Uniforms, bump, custom, diffuse, displacement, mirror, normal, phong,
-        sampler::{Sampler2d, SamplerCube},
+        sampler::{Sampler2d, SamplerCube, Wrap},
         texture, wireframe,
     },
     texture::Texture,
@@ -22,7 +22,10 @@ use crate::{
 /// A scene with its camera and textures.
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
+    /// The scene, moved so that `origin` is at 0.
     pub(super) scene: Scene,
+    /// The point of the world that is drawn as the origin.
+    pub(super) origin: Vec3,
     camera: Camera,
     textures: Vec<(String, Texture)>,
     cubemaps: Vec<(String, Cubemap)>,
@@ -37,9 +40,12 @@ impl Programs {
         let images = Images::of(scene);
         let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
         let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
+        let origin = camera::origin(scene)?;
+        let scene = moved(scene, origin)?;
         Ok(Self {
-            scene: scene.clone(),
-            camera: Camera::of(scene)?,
+            camera: Camera::of(&scene)?,
+            origin,
+            scene,
             textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
             cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
         })
@@ -54,12 +60,37 @@ impl Programs {
         }
     }
 
+    /// The names of the textures that have transparent pixels.
+    pub(super) fn transparent_textures(&self) -> Vec<&str> {
+        let named = self.textures.iter().map(|(name, texture)| (name, texture.was_transparent()));
+        let cubes = self.cubemaps.iter().map(|(name, cube)| (name, cube.faces().iter().any(Texture::was_transparent)));
+        named.chain(cubes).filter(|(_, transparent)| *transparent).map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The camera for a picture of `objects`.
+    pub(super) fn camera(&self, objects: &[Object<'_>]) -> Camera {
+        if !self.scene.camera.fit {
+            return self.camera.clone();
+        }
+        // Planes have no end; they are framed only where there is nothing else.
+        let bounded: Vec<_> = objects.iter().filter(|object| !object.is_plane).collect();
+        let shown = if bounded.is_empty() { objects.iter().collect() } else { bounded };
+        let points: Vec<Vec3> = shown.into_iter().flat_map(Object::places).collect();
+        let fitting = if points.is_empty() { None } else { Camera::fitting(&self.scene, &points).ok() };
+        fitting.unwrap_or_else(|| self.camera.clone())
+    }
+
     /// The draw call of an object: its mesh with the programs of its material.
-    pub(super) fn draw_call<'a>(&'a self, object: &'a Object<'a>, shading: Shading) -> DrawCall<'a> {
-        let u = self.uniforms(object);
+    pub(super) fn draw_call<'a>(
+        &'a self,
+        object: &'a Object<'a>,
+        camera: &Camera,
+        shading: Shading,
+    ) -> DrawCall<'a> {
+        let u = self.uniforms(object, camera);
         let material = object.material;
-        let u_texture_1 = || self.sampler(&material.texture);
-        let u_texture_2 = || self.sampler(&material.height_map);
+        let u_texture_1 = || self.sampler(&material.texture, object.wrap_v);
+        let u_texture_2 = || self.sampler(&material.height_map, object.wrap_v);
         let u_texture_cubemap = || self.sampler_cube(&material.environment);
         match material.shader {
             Shader::Wireframe => object.call(shading, wireframe::vertex(&u), wireframe::Fragment { u }),
@@ -94,12 +125,12 @@ impl Programs {
         }
     }
 
-    fn uniforms(&self, object: &Object<'_>) -> Uniforms {
+    fn uniforms(&self, object: &Object<'_>, camera: &Camera) -> Uniforms {
         let (material, light) = (object.material, &self.scene.light);
         Uniforms {
             u_model: object.model,
-            u_view_projection: self.camera.view_projection,
-            u_cam_pos: self.camera.position,
+            u_view_projection: camera.view_projection,
+            u_cam_pos: camera.position,
             u_color: round(material.color),
             u_light_pos: round(light.position),
             u_light_intensity: round(light.intensity),
@@ -111,16 +142,41 @@ impl Programs {
             u_km: to_f32(material.km),
             u_normal_scaling: to_f32(material.normal_scaling),
             u_height_scaling: to_f32(material.height_scaling),
+            u_bitangent: match material.bitangent {
+                Bitangent::NormalCrossTangent => 1.0,
+                Bitangent::Uv => -1.0,
+            },
+            u_two_sided: f32::from(u8::from(material.two_sided)),
         }
     }
 
-    fn sampler(&self, name: &str) -> Sampler2d<'_> {
-        Sampler2d { texture: find(&self.textures, name).expect(LOADED), filter: self.scene.render.filter }
+    fn sampler(&self, name: &str, wrap_v: Wrap) -> Sampler2d<'_> {
+        let texture = find(&self.textures, name).expect(LOADED);
+        Sampler2d { texture, filter: self.scene.render.filter, wrap_v }
     }
 
     fn sampler_cube(&self, name: &str) -> SamplerCube<'_> {
-        SamplerCube { cubemap: find(&self.cubemaps, name).expect(LOADED), filter: self.scene.render.filter }
+        let cubemap = find(&self.cubemaps, name).expect(LOADED);
+        let crate::scene::Render { filter, seamless, .. } = self.scene.render;
+        SamplerCube { cubemap, filter, seamless }
     }
+}
+
+/// The scene as it is seen from `origin`, but for the cloth, whose points are handed in.
+fn moved(scene: &Scene, origin: Vec3) -> Result<Scene> {
+    let mut moved = scene.clone();
+    if origin == Vec3::zeros() {
+        return Ok(moved);
+    }
+    moved.camera.target = Some(camera::target(scene)? - origin);
+    moved.light.position -= origin;
+    for collider in &mut moved.colliders {
+        match collider {
+            Collider::Plane(plane) => plane.point -= origin,
+            Collider::Sphere(sphere) => sphere.origin -= origin,
+        }
+    }
+    Ok(moved)
 }
 
 /// `Programs::new` reads exactly what `draw_call` asks for: both go by [`Needs::of`].

@@ -1,9 +1,11 @@
 //! Where the picture is taken from.
 
+use super::Cloth;
 use super::json::keys::keys;
 use super::json::list::{OrNull, Vector};
 use super::json::object::defaults;
 use super::json::range::{ANY, POSITIVE, Range, from_to};
+use super::json::scalar::Flag;
 use crate::math::Vec3;
 
 /// Fields of view whose tangent is neither 0 nor infinite in binary32.
@@ -29,11 +31,20 @@ keys! {
         hfov: f64 => [50.0] FIELD_OF_VIEW;
         /// Vertical field of view; see `hfov`.
         vfov: f64 => [35.0] FIELD_OF_VIEW;
+        /// Whether the camera frames what there is: target and distance are chosen so that the cloth as it is in the
+        /// picture, the balls and the boxes just fit into it, from the side that `polar` and `azimuth` say. In an
+        /// animation it follows the cloth.
+        fit: bool => [false] Flag;
         /// Distance of the near plane: what is nearer to the camera is not drawn.
         near: f64 => [0.01] POSITIVE.unit("m"), local;
         /// Distance of the far plane: what is farther from the camera is not drawn. It must be above `near`.
         far: f64 => [10_000.0] POSITIVE.unit("m"), local;
     }
+}
+
+/// How far a camera is from its target, in metres.
+pub(crate) fn distance(camera: &Camera, cloth: Option<&Cloth>) -> f64 {
+    camera.distance.unwrap_or_else(|| 1.8 * cloth.map_or(1.0, |cloth| cloth.width.max(cloth.height)))
 }
 
 impl Default for Camera {

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
@@ -20,6 +21,9 @@ use crate::error::{Diagnostic, Error, Kind, Result};
 /// Largest scene or patch file, in bytes.
 pub const MAX_FILE: u64 = 16 << 20;
 
+/// The path that stands for standard input.
+const STDIN: &str = "-";
+
 /// Changes to a scene from outside its file: all patches in order, then all sets, then all flags. They are made
 /// before the scene is validated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,7 +31,8 @@ pub struct Overrides {
     /// Files with a JSON merge patch each (RFC 7396). There `null` removes a key.
     pub patches: Vec<PathBuf>,
     /// `PATH=JSON` each, such as `cloth.ks=500`, `sphere.0.radius=0.1` or `material.shader=bump`
-    /// (a bare word is text). The value replaces what is there; `null` is a value like any other.
+    /// (a bare word is text). The value replaces what is there; `null` is a value like any other, but removes a
+    /// whole object, such as `plane=null`.
     pub sets: Vec<String>,
     /// What flags of a program change.
     pub flags: Vec<Flag>,
@@ -52,13 +57,14 @@ pub struct Loaded {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Loads the scene file `path`, changed by `overrides`.
+/// Loads the scene file `path`, changed by `overrides`; `-` is standard input.
 ///
 /// # Errors
 /// [`Kind::Scene`] with every diagnostic if the file, a patch or a set is not valid;
 /// [`Kind::Io`] if a file cannot be read; [`Kind::Usage`] if a set is not of the form `PATH=JSON`.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
-    assemble(&path.display().to_string(), &read(path)?, overrides, read)
+    let name = if path == Path::new(STDIN) { "standard input".to_owned() } else { path.display().to_string() };
+    assemble(&name, &read(path)?, overrides, read)
 }
 
 /// Loads a scene as [`load`] does in the repository's folder, but from the files built into the
@@ -167,12 +173,28 @@ fn read_scene(diagnostics: &mut Diagnostics, document: &Node) -> Option<Scene> {
 
 /// The bytes of a file, at most one more than allowed.
 fn read(path: &Path) -> Result<Vec<u8>> {
+    if path == Path::new(STDIN) {
+        return standard_input();
+    }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes)).map_err(|e| {
         let error = Error::new(Kind::Io, format!("cannot read {}: {e}", path.display()));
         error.with_help(neighbor(path).unwrap_or_default())
     })?;
     Ok(bytes)
+}
+
+/// What standard input holds, at most one byte more than allowed. It can be read once, so it is kept: some commands
+/// load their scene again with changes.
+fn standard_input() -> Result<Vec<u8>> {
+    static KEPT: OnceLock<std::result::Result<Vec<u8>, String>> = OnceLock::new();
+    let read = || {
+        let mut bytes = Vec::new();
+        let read = std::io::stdin().lock().take(MAX_FILE + 1).read_to_end(&mut bytes);
+        read.map(|_| bytes).map_err(|e| e.to_string())
+    };
+    let kept = KEPT.get_or_init(read).clone();
+    kept.map_err(|e| Error::new(Kind::Io, format!("cannot read the scene from standard input: {e}")))
 }
 
 /// "did you mean `scenes/sphere.json`?" if that is not there and a file with nearly that name is.
@@ -199,18 +221,18 @@ fn file(diagnostics: &mut Diagnostics, name: &str, bytes: &[u8]) -> Option<Node>
     }
     let text = String::from_utf8_lossy(bytes);
     let source = diagnostics.add_source(name, &*text);
+    // Some editors begin a file with a byte order mark.
+    let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let wrong = if let Err(error) = std::str::from_utf8(bytes) {
         let start = error.valid_up_to();
         Some((start..start + char::REPLACEMENT_CHARACTER.len_utf8(), "not valid UTF-8"))
-    } else if text.starts_with('\u{feff}') {
-        Some((0..'\u{feff}'.len_utf8(), "the file starts with a byte order mark"))
-    } else if text.trim_ascii().is_empty() {
+    } else if text[mark..].trim_ascii().is_empty() {
         Some((0..0, "the file is empty"))
     } else {
         None
     };
     match wrong {
-        None => parse(diagnostics, source, 0),
+        None => parse(diagnostics, source, mark),
         Some((range, message)) => {
             let place = Span { source, start: range.start, end: range.end };
             diagnostics.error(Finding::new("scene::syntax", message).at(place, "here"));

@@ -1,11 +1,11 @@
 //! What an object looks like.
 
-use super::json::choice::choice;
+use super::json::choice::{choice, choices};
 use super::json::keys::keys;
 use super::json::list::Vector;
 use super::json::object::{Object, defaults};
 use super::json::range::{ANY, NOT_NEGATIVE};
-use super::json::scalar::Name;
+use super::json::scalar::{Flag, Name};
 use super::shader::Shader;
 use crate::math::Vec3;
 
@@ -51,6 +51,22 @@ keys! {
         /// The six pictures around the scene that `mirror` and `custom` show: the name of a folder in
         /// `--textures DIR` with `posx.png`, `negx.png` and so on; `cube` is built in.
         environment: String => ["cube".into()] Name;
+        /// Which way the relief of `bump`, `displacement` and `custom` is lit along v.
+        bitangent: Bitangent => [Bitangent::NormalCrossTangent] choice::<Bitangent>();
+        /// Whether the side that faces the camera is lit, whichever that is: the normal is turned round where it
+        /// faces away. By default only the side of the normal is lit, and the other shows what that would.
+        two_sided: bool => [false] Flag;
+    }
+}
+
+choices! {
+    /// The direction in which a relief is taken to rise with v (`material.bitangent`).
+    pub enum Bitangent {
+        /// `cross(normal, tangent)`, the formula of the course. On every mesh v runs the other way, so slopes along v
+        /// are lit from the wrong side: a light from above shades what it should light.
+        NormalCrossTangent = "normal_cross_tangent",
+        /// The direction in which v grows: a relief is lit from the right side everywhere.
+        Uv = "uv",
     }
 }
 

@@ -22,6 +22,7 @@ mod render;
 mod shader;
 mod sim;
 mod stock;
+mod without_effect;
 mod validate;
 
 use json::key::Row;
@@ -29,13 +30,14 @@ use json::object::{Object, defaults};
 
 pub use crate::math::Vec3;
 pub use camera::Camera;
+pub(crate) use camera::distance;
 pub use cloth::{Cloth, MAX_POINTS, Orientation};
 pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Sphere};
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
 pub use load::{Flag, Loaded, MAX_FILE, Overrides, check_value, load, load_stock, load_text};
-pub use material::Material;
+pub use material::{Bitangent, Material};
 pub use needs::Needs;
 pub use plan::{Images, Item, plan};
 pub use render::{Filter, Render};

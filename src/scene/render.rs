@@ -5,7 +5,7 @@ use super::json::keys::keys;
 use super::json::list::{Counts, Vector};
 use super::json::object::defaults;
 use super::json::range::{NOT_NEGATIVE, from_to};
-use super::json::scalar::{Count, OneOf};
+use super::json::scalar::{Count, Flag, OneOf};
 use crate::math::Vec3;
 
 keys! {
@@ -23,6 +23,9 @@ keys! {
         time: f64 => [2.0] from_to(0.0, 1e6).unit("s");
         /// How textures are looked up.
         filter: Filter => [Filter::Bilinear] choice::<Filter>();
+        /// Whether the pictures of an environment are filtered across the edges where they meet. By default each ends
+        /// at its edge, and a smooth environment shows them.
+        seamless: bool => [false] Flag;
     }
 }
 

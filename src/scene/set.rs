@@ -40,7 +40,7 @@ pub(super) fn read_set(diagnostics: &mut Diagnostics, option: &str, argument: &s
     let source = diagnostics.add_source(format!("{option} {argument}"), argument);
     let steps = steps(path, source);
     if steps.len() > MOST_STEPS {
-        return Err(usage("the path is too long"));
+        return Err(usage(&format!("the path has {} steps, and at most {MOST_STEPS} are read", steps.len())));
     }
     if steps.iter().any(|step| step.name.is_empty()) {
         return Err(usage("the path has an empty step"));
@@ -98,6 +98,9 @@ fn nearly_number(path: &str, value: &str) -> Option<String> {
 /// Puts the value of `set` into `document`; objects on the way are made where they are missing.
 pub(super) fn apply(diagnostics: &mut Diagnostics, document: &mut Node, set: Set) {
     let steps = list_steps(document, set.steps);
+    if let ([step], Json::Null, Json::Object(members)) = (steps.as_slice(), &set.value.json, &mut document.json) {
+        return members.retain(|member| member.key != step.name);
+    }
     insert(diagnostics, document, &steps, "", set.value);
 }
 
@@ -211,6 +214,7 @@ mod tests {
         assert_eq!(after(r#"{"a": {"b": 1}}"#, r#"a={"c": "x=y"}"#), r#"{"a":{"c":"x=y"}}"#);
         assert_eq!(after("{}", "a.b.c=null"), r#"{"a":{"b":{"c":null}}}"#);
         assert_eq!(after(r#"{"a": [true, [false]]}"#, "a.1.0=null"), r#"{"a":[true,[null]]}"#);
+        assert_eq!(after(r#"{"a": {"b": 1}, "c": true}"#, "a=null"), r#"{"c":true}"#);
         assert_eq!(after("{}", "a=bump"), r#"{"a":"bump"}"#);
         assert_eq!(after("{}", "a= \"bump\" "), r#"{"a":"bump"}"#);
     }

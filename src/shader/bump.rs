@@ -3,7 +3,7 @@
 use super::{
     Uniforms,
     default::Relief,
-    phong::blinn_phong,
+    phong::{blinn_phong, facing},
     sampler::{Sampler2d, texture},
 };
 use crate::{
@@ -24,7 +24,7 @@ pub(super) fn bumped_normal<L: Lane>(
 ) -> Vec3<L> {
     let n = normalize(v_normal);
     let t = normalize(v_tangent);
-    let b = cross(n, t);
+    let b = cross(n, t) * u.u_bitangent;
     let k = u.u_height_scaling * u.u_normal_scaling;
     let [x, y] = v_uv;
     let [h0, h_u, h_v] = L::map_parts(
@@ -58,6 +58,7 @@ crate::fragment_program! {
     pub struct Fragment<'a> { u: Uniforms, u_texture_2: Sampler2d<'a> }
     |Relief { v_position, v_normal, v_tangent, v_uv }| {
         let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, v_uv);
+        let n = facing(&u, n, v_normal, v_position);
         blinn_phong(&u, v_position, n)
     }
 }

@@ -15,6 +15,8 @@ uniform vec2 u_texture_2_size;
 uniform samplerCube u_texture_cubemap;
 uniform float u_normal_scaling;
 uniform float u_height_scaling;
+uniform float u_bitangent;
+uniform float u_two_sided;
 
 in vec3 v_position;
 in vec3 v_normal;
@@ -27,10 +29,17 @@ float h(vec2 uv) {
     return texture(u_texture_2, uv).r;
 }
 
+// Away from the camera the other side is lit, where that is asked for.
+vec3 facing(vec3 n, vec3 v_normal, vec3 v_position) {
+    if (u_two_sided == 0.0) return n;
+    bool away = dot(v_normal, u_cam_pos - v_position) * u_two_sided < 0.0;
+    return away ? -n : n;
+}
+
 vec3 bumped_normal() {
     vec3 n = normalize(v_normal);
     vec3 t = normalize(v_tangent);
-    vec3 b = cross(n, t);
+    vec3 b = cross(n, t) * u_bitangent;
     float k = u_height_scaling * u_normal_scaling;
     float h0 = h(v_uv);
     float dU = (h(v_uv + vec2(1.0 / u_texture_2_size.x, 0.0)) - h0) * k;
@@ -40,7 +49,7 @@ vec3 bumped_normal() {
 }
 
 void main() {
-    vec3 n = bumped_normal();
+    vec3 n = facing(bumped_normal(), v_normal, v_position);
     vec3 a = texture(u_texture_1, v_uv).rgb;
     vec3 q = normalize(u_light_color);
     vec3 to_light = u_light_pos - v_position;

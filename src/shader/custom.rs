@@ -5,6 +5,7 @@ use super::{
     Uniforms,
     bump::bumped_normal,
     default::Relief,
+    phong::facing,
     sampler::{Sampler2d, SamplerCube, texture, texture_cube},
 };
 use crate::glsl::{dot, float, max, normalize, pow, reflect};
@@ -21,6 +22,7 @@ crate::fragment_program! {
     }
     |Relief { v_position, v_normal, v_tangent, v_uv }| {
         let n = bumped_normal(&u, u_texture_2, v_normal, v_tangent, v_uv);
+        let n = facing(&u, n, v_normal, v_position);
         let a = texture(u_texture_1, v_uv);
         let q = normalize(u.u_light_color);
         let to_light = u.u_light_pos - v_position;

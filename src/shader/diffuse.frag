@@ -1,17 +1,26 @@
 #version 330
 
+uniform vec3 u_cam_pos;
 uniform vec3 u_color;
 uniform vec3 u_light_pos;
 uniform vec3 u_light_intensity;
 uniform float u_kd;
+uniform float u_two_sided;
 
 in vec3 v_position;
 in vec3 v_normal;
 
 out vec4 out_color;
 
+// Away from the camera the other side is lit, where that is asked for.
+vec3 facing(vec3 n, vec3 v_normal, vec3 v_position) {
+    if (u_two_sided == 0.0) return n;
+    bool away = dot(v_normal, u_cam_pos - v_position) * u_two_sided < 0.0;
+    return away ? -n : n;
+}
+
 void main() {
-    vec3 n = normalize(v_normal);
+    vec3 n = facing(normalize(v_normal), v_normal, v_position);
     vec3 to_light = u_light_pos - v_position;
     float r2 = dot(to_light, to_light);
     vec3 l = normalize(to_light);

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use super::{
     Uniforms, bump, custom, diffuse, displacement, mirror, normal, phong,
-    sampler::{Sampler2d, SamplerCube},
+    sampler::{Sampler2d, SamplerCube, Wrap},
     texture, wireframe,
 };
 use crate::{
@@ -36,6 +36,8 @@ const UNIFORMS: Uniforms = Uniforms {
     u_km: 0.25,
     u_normal_scaling: 2.0,
     u_height_scaling: 0.1,
+    u_bitangent: -1.0,
+    u_two_sided: 1.0,
 };
 
 #[expect(clippy::cast_precision_loss, reason = "24 bits")]
@@ -150,9 +152,9 @@ fn programs(mut check: impl FnMut(&str, &dyn Fn(Way, u32) -> Outcome), filter: F
     let map = Texture::from_rgb(8, 8, &texels(64)).unwrap();
     let faces = [0, 1, 2, 3, 4, 5].map(|_| Texture::from_rgb(9, 9, &texels(81)).unwrap());
     let cubemap = Cubemap::new("test", faces).unwrap();
-    let u_texture_1 = Sampler2d { texture: &picture, filter };
-    let u_texture_2 = Sampler2d { texture: &map, filter };
-    let u_texture_cubemap = SamplerCube { cubemap: &cubemap, filter };
+    let u_texture_1 = Sampler2d { texture: &picture, filter, wrap_v: Wrap::Repeat };
+    let u_texture_2 = Sampler2d { texture: &map, filter, wrap_v: Wrap::Clamp };
+    let u_texture_cubemap = SamplerCube { cubemap: &cubemap, filter, seamless: true };
     check("wireframe", &|way, n| outcome(way, n, wireframe::vertex(&u), wireframe::Fragment { u }));
     check("normal", &|way, n| outcome(way, n, normal::vertex(&u), normal::Fragment {}));
     check("diffuse", &|way, n| outcome(way, n, diffuse::vertex(&u), diffuse::Fragment { u }));

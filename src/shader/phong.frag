@@ -8,11 +8,19 @@ uniform float u_ka;
 uniform float u_kd;
 uniform float u_ks;
 uniform float u_shininess;
+uniform float u_two_sided;
 
 in vec3 v_position;
 in vec3 v_normal;
 
 out vec4 out_color;
+
+// Away from the camera the other side is lit, where that is asked for.
+vec3 facing(vec3 n, vec3 v_normal, vec3 v_position) {
+    if (u_two_sided == 0.0) return n;
+    bool away = dot(v_normal, u_cam_pos - v_position) * u_two_sided < 0.0;
+    return away ? -n : n;
+}
 
 vec3 blinn_phong(vec3 v_position, vec3 n) {
     vec3 to_light = u_light_pos - v_position;
@@ -27,6 +35,6 @@ vec3 blinn_phong(vec3 v_position, vec3 n) {
 }
 
 void main() {
-    vec3 n = normalize(v_normal);
+    vec3 n = facing(normalize(v_normal), v_normal, v_position);
     out_color = vec4(blinn_phong(v_position, n), 1.0);
 }

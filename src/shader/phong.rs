@@ -22,11 +22,25 @@ pub(super) fn blinn_phong<L: Lane>(u: &Uniforms<L, Vec3<L>>, v_position: Vec3<L>
     vec3(u.u_ka, u.u_ka, u.u_ka) + diffuse + specular
 }
 
+/// `facing` of the GLSL files: the normal `n`, turned round where the surface faces away from the camera and both
+/// sides are lit.
+#[inline(always)]
+pub(super) fn facing<L: Lane>(u: &Uniforms<L, Vec3<L>>, n: Vec3<L>, v_normal: Vec3<L>, v_position: Vec3<L>) -> Vec3<L> {
+    // The same for all fragments: where it is off, nothing is computed.
+    if u.u_two_sided == 0.0 {
+        return n;
+    }
+    let side = dot(v_normal, u.u_cam_pos - v_position) * u.u_two_sided;
+    let zero = side.all(0.0);
+    let turned = |x: L| side.select_less(zero, -x, x);
+    vec3(turned(n.x), turned(n.y), turned(n.z))
+}
+
 crate::fragment_program! {
     /// `phong.frag`
     pub struct Fragment { u: Uniforms }
     |Lit { v_position, v_normal }| {
-        let n = normalize(v_normal);
+        let n = facing(&u, normalize(v_normal), v_normal, v_position);
         blinn_phong(&u, v_position, n)
     }
 }

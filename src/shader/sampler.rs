@@ -1,4 +1,5 @@
-//! Texture lookup: nearest and bilinear, REPEAT on pictures, CLAMP_TO_EDGE within a cube face.
+//! Texture lookup: nearest and bilinear, REPEAT on pictures (CLAMP_TO_EDGE along v on a ball, whose poles are
+//! not neighbours), CLAMP_TO_EDGE within a cube face, or over its edges where that is asked for.
 //!
 //! Bilinear weights are exact: x = u·w - 0.5, i = floor(x), f = x - i, then mix along x and y.
 //! For texture coordinates in -1..=2, a lookup in f32 is within (w + h + 2)·2⁻²² of the same formula
@@ -14,13 +15,24 @@ use crate::{
     texture::Texture,
 };
 
-/// `sampler2D` with REPEAT; the first row of the picture is at v = 0.
+/// `sampler2D` with REPEAT along u; the first row of the picture is at v = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler2d<'a> {
     /// The texels.
     pub texture: &'a Texture,
     /// How texels are combined.
     pub filter: Filter,
+    /// What lies above the first row and below the last.
+    pub wrap_v: Wrap,
+}
+
+/// What lies beyond the edge of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The picture again (REPEAT).
+    Repeat,
+    /// Its last texel (CLAMP_TO_EDGE).
+    Clamp,
 }
 
 /// `samplerCube` with CLAMP_TO_EDGE.
@@ -30,6 +42,8 @@ pub struct SamplerCube<'a> {
     pub cubemap: &'a Cubemap,
     /// How texels are combined.
     pub filter: Filter,
+    /// Whether the texels beyond an edge are those of the next face (TEXTURE_CUBE_MAP_SEAMLESS).
+    pub seamless: bool,
 }
 
 impl<'a> Uniform for Sampler2d<'a> {
@@ -51,12 +65,13 @@ impl<'a> Uniform for SamplerCube<'a> {
 /// `texture(sampler2D, vec2(u, v)).rgb`
 #[inline(always)]
 pub fn texture<L: Lane>(sampler: Sampler2d<'_>, [u, v]: [L; 2]) -> Vec3<L> {
-    let Sampler2d { texture, filter } = sampler;
+    let Sampler2d { texture, filter, wrap_v } = sampler;
+    let wrap = [Wrap::Repeat, wrap_v];
     let size = [texture.width(), texture.height()];
     let rgb = L::map_parts(
         [u, v, v],
         #[inline(always)]
-        |[u, v, _]| look_up(filter, [u, v], size, Edge::Repeat, &Picture(texture.texels())),
+        |[u, v, _]| look_up(filter, [u, v], size, wrap, &Picture(texture.texels())),
     );
     Vec3::from(rgb)
 }
@@ -77,8 +92,11 @@ pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Ve
 #[inline(always)]
 fn cube_texel<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
     let (face, s, t) = cube_face(direction);
+    if sampler.seamless && sampler.filter == Filter::Bilinear {
+        return seamless(sampler.cubemap, face, [s, t]);
+    }
     let faces = Faces::of(sampler.cubemap, face);
-    look_up(sampler.filter, [s, t], [sampler.cubemap.size(); 2], Edge::Clamp, &faces)
+    look_up(sampler.filter, [s, t], [sampler.cubemap.size(); 2], [Wrap::Clamp; 2], &faces)
 }
 
 /// The pictures that the lanes look into.
@@ -141,13 +159,24 @@ fn cube_face<P: Part>(r: Vec3<P>) -> (P, P, P) {
     (or_middle(face, zero), coordinate(sc), coordinate(tc))
 }
 
-/// What lies beyond the edge of a picture.
-#[derive(Clone, Copy)]
-enum Edge {
-    /// REPEAT
-    Repeat,
-    /// CLAMP_TO_EDGE
-    Clamp,
+/// Filters four texels, of which some may lie beyond an edge of the face.
+#[inline(always)]
+fn seamless<P: Part>(cubemap: &Cubemap, face: P, [s, t]: [P; 2]) -> [P; 3] {
+    let n = side(cubemap.size()) as f32;
+    let (x, y) = (s * n - 0.5, t * n - 0.5);
+    let (i, j) = (x.floor(), y.floor());
+    let (fx, fy) = (x - i, y - j);
+    let (face, i, j) = (face.to_whole(), i.to_whole(), j.to_whole());
+    let texels = |right: i32, down: i32| {
+        P::transpose(
+            x.token(),
+            #[inline(always)]
+            |lane| cubemap.texel_around(face.lane(lane).cast_unsigned() as usize, [i.lane(lane) + right, j.lane(lane) + down]),
+        )
+    };
+    let top = mix::<P>(texels(0, 0), texels(1, 0), fx);
+    let bottom = mix::<P>(texels(0, 1), texels(1, 1), fx);
+    mix(top, bottom, fy)
 }
 
 /// Filters texels around (u·w, v·h) of each lane's picture.
@@ -156,21 +185,21 @@ fn look_up<P: Part>(
     filter: Filter,
     [u, v]: [P; 2],
     [w, h]: [usize; 2],
-    edge: Edge,
+    [along_u, along_v]: [Wrap; 2],
     pictures: &impl Pictures,
 ) -> [P; 3] {
     let (w, h) = (side(w), side(h));
     let (x, y) = (u * w as f32, v * h as f32);
     match filter {
         Filter::Nearest => {
-            let ([i, _], [j, _]) = (edge.neighbors(x.floor(), w), edge.neighbors(y.floor(), h));
+            let ([i, _], [j, _]) = (along_u.neighbors(x.floor(), w), along_v.neighbors(y.floor(), h));
             gather(x.token(), pictures, j * w + i)
         }
         Filter::Bilinear => {
             let (x, y) = (x - 0.5, y - 0.5);
             let (i, j) = (x.floor(), y.floor());
             let (fx, fy) = (x - i, y - j);
-            let ([i0, i1], [j0, j1]) = (edge.neighbors(i, w), edge.neighbors(j, h));
+            let ([i0, i1], [j0, j1]) = (along_u.neighbors(i, w), along_v.neighbors(j, h));
             let (top, bottom) = (j0 * w, j1 * w);
             let texels = |place: P::Whole| gather(x.token(), pictures, place);
             let top = mix::<P>(texels(top + i0), texels(top + i1), fx);
@@ -208,7 +237,7 @@ fn side(n: usize) -> i32 {
     n as i32
 }
 
-impl Edge {
+impl Wrap {
     /// The columns (or rows) i and i + 1, brought into 0..n.
     #[inline(always)]
     fn neighbors<P: Part>(self, i: P, n: i32) -> [P::Whole; 2] {

@@ -39,6 +39,10 @@ pub struct Uniforms<F = f32, V = [f32; 3]> {
     pub u_normal_scaling: f32,
     /// kh: height of a white texel, model units.
     pub u_height_scaling: f32,
+    /// 1 for the bitangent n × t, -1 for t × n.
+    pub u_bitangent: F,
+    /// 1 to light the side that faces the camera, 0 to light that of the normal.
+    pub u_two_sided: f32,
 }
 
 impl Uniform for Uniforms {
@@ -61,6 +65,8 @@ impl Uniform for Uniforms {
             u_km: self.u_km.in_lanes::<L>(token),
             u_normal_scaling: self.u_normal_scaling,
             u_height_scaling: self.u_height_scaling,
+            u_bitangent: self.u_bitangent.in_lanes::<L>(token),
+            u_two_sided: self.u_two_sided,
         }
     }
 }

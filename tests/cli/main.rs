@@ -9,6 +9,7 @@
 mod animate;
 mod binary;
 mod browser;
+mod comparing;
 mod disk;
 mod docs;
 mod errors;
@@ -22,6 +23,7 @@ mod goldens;
 mod mistakes;
 mod pages;
 mod positions;
+mod readers;
 mod readme;
 #[path = "../support/repository.rs"]
 mod repository;

@@ -30,6 +30,8 @@ pub(crate) struct Playback {
     pub(crate) height: u32,
     /// Pictures per second (>= 1).
     pub(crate) fps: u16,
+    /// The colour of the background, with which a format fills up sizes that it does not have.
+    pub(crate) background: [u8; 3],
 }
 
 /// A file that is being encoded. It appears only when it is complete.

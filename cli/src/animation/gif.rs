@@ -2,8 +2,8 @@
 //!
 //! Picture k is shown from round(100 k / fps) to round(100 (k + 1) / fps) hundredths, so that
 //! rounding never adds up: after any number of pictures the clock is at most half a hundredth off.
-//! Each picture but the first holds only the rectangle that changes, with its own palette: exact
-//! up to 256 colours, else by NeuQuant (Dekker 1994). The animation repeats for ever.
+//! Each picture but the first holds only the rectangle that changes, with a [`Palette`] of its own, which is exact
+//! up to 256 colours. The animation repeats for ever.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -13,14 +13,12 @@ use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
 use super::changes::{Changes, Rectangle};
 use super::format::{Animation, Format, Playback};
+use super::palette::Palette;
 use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
 
 /// Most pictures per second: players show delays below two hundredths as ten.
 const MAX_FPS: u16 = 50;
-
-/// Every how many pixels NeuQuant looks at, 1 to 30.
-const SPEED: i32 = 10;
 
 /// The row of the table.
 pub(crate) const GIF: Format = Format {
@@ -47,7 +45,7 @@ impl Gif {
     /// [`Kind::Io`] when it cannot be written; [`Kind::Usage`] when a side has more than 65535
     /// pixels or the rate is above [`MAX_FPS`].
     fn create(path: &Path, playback: Playback) -> Result<Self> {
-        let Playback { width, height, fps } = playback;
+        let Playback { width, height, fps, .. } = playback;
         let (Ok(w), Ok(h), 1..=MAX_FPS) = (u16::try_from(width), u16::try_from(height), fps) else {
             let message = format!("a GIF cannot hold {width} x {height} pixels at {fps} pictures per second");
             let help = format!("at most {0} x {0} pixels at {MAX_FPS} pictures per second", u16::MAX);
@@ -89,8 +87,18 @@ fn header(
 fn frame(rectangle: Rectangle, pixels: &[u8], delay: u16) -> Frame<'static> {
     let side = |pixels: usize| u16::try_from(pixels).unwrap_or(u16::MAX);
     let Rectangle { left, top, width, height } = rectangle;
-    let colors = Frame::from_rgb_speed(side(width), side(height), pixels, SPEED);
-    Frame { left: side(left), top: side(top), delay, dispose: DisposalMethod::Keep, ..colors }
+    let (palette, buffer) = Palette::of(pixels);
+    Frame {
+        left: side(left),
+        top: side(top),
+        width: side(width),
+        height: side(height),
+        delay,
+        dispose: DisposalMethod::Keep,
+        palette: Some(palette.into_bytes()),
+        buffer: buffer.into(),
+        ..Frame::default()
+    }
 }
 
 /// How long picture `k` is shown, in hundredths of a second.

@@ -6,6 +6,7 @@ pub(crate) mod schedule;
 pub(crate) mod format;
 pub(crate) mod changes;
 pub(crate) mod apng;
+pub(crate) mod palette;
 pub(crate) mod gif;
 pub(crate) mod mp4;
 pub(crate) mod pattern;

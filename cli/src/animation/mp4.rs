@@ -8,6 +8,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 
 use super::format::{Animation, Format, MAX_FPS, Playback};
 use crate::session::files::staged::Staged;
+use crate::session::files::target::no_temporary;
 use drape::error::{Error, Kind, Result};
 
 /// The row of the table.
@@ -15,14 +16,23 @@ pub(crate) const MP4: Format = Format {
     ending: "mp4",
     note: "H.264, encoded by the program ffmpeg, which must be installed",
     max_fps: MAX_FPS,
-    check: |path, playback| find_ffmpeg(path, playback.fps),
+    check: find_ffmpeg,
     create: |path, playback, _| Ok(Box::new(Mp4::create(path, playback)?)),
 };
 
-/// The options of the encoder, wherever the pictures come from. Most players need even sides and chroma at
-/// half the resolution.
-const ENCODING: [&str; 6] =
-    ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-pix_fmt", "yuv420p"];
+/// The options of the encoder, wherever the pictures come from. Most players need even sides, chroma at half the
+/// resolution, and the index before the pictures. Colours are converted to those of BT.709 and tagged so: a
+/// player takes what has no tag for BT.601 or BT.709, by its size.
+fn encoding(playback: Playback) -> Vec<String> {
+    let [r, g, b] = playback.background;
+    let filter = format!(
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x{r:02x}{g:02x}{b:02x},\
+         scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p"
+    );
+    let tags = ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"];
+    let first = ["-vf", &filter, "-c:v", "libx264", "-pix_fmt", "yuv420p"];
+    first.into_iter().chain(tags).chain(["-movflags", "+faststart"]).map(str::to_owned).collect()
+}
 
 /// Most bytes of the messages of ffmpeg that an error quotes.
 const MOST_QUOTED: u64 = 2000;
@@ -51,24 +61,26 @@ impl Drop for Running {
 ///
 /// # Errors
 /// [`Kind::Io`] with the command that encodes `video` from numbered pictures.
-fn find_ffmpeg(video: &Path, fps: u16) -> Result<()> {
+fn find_ffmpeg(video: &Path, playback: Playback) -> Result<()> {
     let quiet = |command: &mut Command| {
         command.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status()
     };
     match quiet(&mut Command::new("ffmpeg")) {
         Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(missing(video, fps, &format!("ffmpeg does not work ({status})"))),
-        Err(e) => Err(missing(video, fps, &format!("ffmpeg cannot be started: {e}"))),
+        Ok(status) => Err(missing(video, playback, &format!("ffmpeg does not work ({status})"))),
+        Err(e) => Err(missing(video, playback, &format!("ffmpeg cannot be started: {e}"))),
     }
 }
 
-fn missing(video: &Path, fps: u16, cause: &str) -> Error {
+fn missing(video: &Path, playback: Playback, cause: &str) -> Error {
+    let Playback { fps, .. } = playback;
+    let encoding: Vec<String> = encoding(playback).iter().map(|word| quoted(word)).collect();
     let folder = video.with_extension("");
     let pictures = folder.join("%04d.png");
     let help = format!(
         "animate to {0} instead, then run this where ffmpeg is installed:\nffmpeg -framerate {fps} -i {0} {1} {2}",
         quoted(&pictures.to_string_lossy()),
-        ENCODING.map(quoted).join(" "),
+        encoding.join(" "),
         quoted(&video.to_string_lossy()),
     );
     Error::new(Kind::Io, cause).with_help(help)
@@ -87,7 +99,7 @@ impl Mp4 {
     /// [`Kind::Io`] when ffmpeg cannot be started or the file not be written.
     fn create(path: &Path, playback: Playback) -> Result<Self> {
         let staged = Staged::create(path)?;
-        let messages = tempfile::tempfile().map_err(|e| staged.failed(&e))?;
+        let messages = tempfile::tempfile().map_err(|e| no_temporary(&e))?;
         let stderr = messages.try_clone().map_err(|e| staged.failed(&e))?;
         let mut ffmpeg = Command::new("ffmpeg")
             .args(arguments(staged.temporary(), playback))
@@ -95,7 +107,7 @@ impl Mp4 {
             .stdout(Stdio::null())
             .stderr(stderr)
             .spawn()
-            .map_err(|e| missing(path, playback.fps, &format!("ffmpeg cannot be started: {e}")))?;
+            .map_err(|e| missing(path, playback, &format!("ffmpeg cannot be started: {e}")))?;
         let pictures = ffmpeg.stdin.take();
         Ok(Self { ffmpeg: Running(ffmpeg), staged, pictures, messages })
     }
@@ -136,10 +148,10 @@ impl Animation for Mp4 {
 }
 
 fn arguments(video: &Path, playback: Playback) -> Vec<OsString> {
-    let Playback { width, height, fps } = playback;
+    let Playback { width, height, fps, .. } = playback;
     let (size, fps) = (format!("{width}x{height}"), fps.to_string());
     let input = ["-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", &size, "-framerate", &fps];
-    let first = ["-y", "-loglevel", "error"].into_iter().chain(input).chain(["-i", "-"]);
-    let all = first.chain(ENCODING).chain(["-f", "mp4"]).map(OsString::from);
-    all.chain([video.as_os_str().to_owned()]).collect()
+    let first = ["-y", "-loglevel", "error"].into_iter().chain(input).chain(["-i", "-"]).map(OsString::from);
+    let all = first.chain(encoding(playback).into_iter().map(OsString::from));
+    all.chain(["-f", "mp4"].map(OsString::from)).chain([video.as_os_str().to_owned()]).collect()
 }

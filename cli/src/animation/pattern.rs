@@ -1,5 +1,6 @@
 //! The names of numbered files: `pictures/%04d.png` stands for `pictures/0000.png` and so on.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Most digits that a number is filled up to.
@@ -38,6 +39,18 @@ impl Pattern {
     pub(crate) fn path(&self, number: u64) -> PathBuf {
         let Self { folder, before, digits, after } = self;
         folder.join(format!("{before}{number:0digits$}{after}"))
+    }
+
+    /// The numbered files that are there, with their numbers in order.
+    pub(crate) fn files(&self) -> Vec<(u64, PathBuf)> {
+        let folder = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let mut files: Vec<(u64, PathBuf)> = entries
+            .filter_map(|entry| self.number(Path::new(&entry.file_name())))
+            .map(|number| (number, self.path(number)))
+            .collect();
+        files.sort_unstable();
+        files
     }
 
     /// The number of the picture whose file name `path` has, in whatever folder.

@@ -5,7 +5,7 @@
 
 use std::fs::{self, File};
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::fingerprint::Fingerprint;
 use super::pattern::Pattern;
@@ -26,6 +26,23 @@ impl Sequence<'_> {
     /// Whether picture `number` is there, complete, and shows `frame` of the same scene.
     pub(crate) fn has(&self, number: u64, frame: u64) -> bool {
         is_complete(&self.pattern.path(number), &self.fingerprint.text(frame))
+    }
+
+    /// Removes the pictures from number `count` on that an earlier, longer run has left; returns those files that
+    /// have such a name and are not of this program.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when one cannot be removed.
+    pub(crate) fn remove_from(&self, count: u64) -> Result<Vec<PathBuf>> {
+        let late = self.pattern.files().into_iter().filter(|(number, _)| *number >= count);
+        let (own, others): (Vec<PathBuf>, Vec<PathBuf>) =
+            late.map(|(_, path)| path).partition(|path| File::open(path).is_ok_and(is_own));
+        for path in own {
+            fs::remove_file(&path).map_err(|e| {
+                Error::new(Kind::Io, format!("cannot remove `{}` of an earlier run: {e}", path.display()))
+            })?;
+        }
+        Ok(others)
     }
 
     /// Writes picture `number`, which shows `frame`.
@@ -77,6 +94,14 @@ fn has_text(file: File, text: &str) -> Result<bool, ::png::DecodingError> {
     reader.next_frame(&mut pixels)?;
     reader.finish()?;
     Ok(true)
+}
+
+/// Whether a file is a picture that this program has numbered.
+fn is_own(file: File) -> bool {
+    let reader = ::png::Decoder::new(BufReader::new(file)).read_info();
+    reader.is_ok_and(|reader| {
+        reader.info().uncompressed_latin1_text.iter().any(|chunk| chunk.keyword == KEYWORD)
+    })
 }
 
 /// Whether the last chunk is there, which a decoder does not ask for.

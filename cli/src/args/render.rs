@@ -8,7 +8,7 @@ use super::flag::{flag, help, size, whole};
 use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::mesh::SpringKinds;
-use drape::render::Options;
+use drape::render::{Options, Renderer};
 use drape::scene::{ColliderKind, Flag, Images, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
@@ -79,6 +79,33 @@ impl RenderArgs {
             names.iter().flat_map(move |name| ENDINGS.map(|ending| file(folder, name, ending)))
         });
         files.filter(|path| path.is_file()).collect()
+    }
+
+    /// Warns of options that change nothing in `scene`, and of textures whose transparency is not drawn.
+    pub(crate) fn caution(&self, scene: &Scene, renderer: &Renderer, ui: &Ui) {
+        let images = Images::of(scene);
+        let lines = scene.cloth.as_ref().is_some_and(|cloth| cloth.material.shader == Shader::Wireframe);
+        let no_spheres = scene.spheres().next().is_none();
+        for (given, acts, option, needs) in [
+            (self.springs.is_some(), lines, "--springs", "only the shader `wireframe` draws the springs of a cloth"),
+            (self.latitudes.is_some(), !no_spheres, "-a", "the scene has no sphere"),
+            (self.longitudes.is_some(), !no_spheres, "-o", "the scene has no sphere"),
+            (
+                self.textures.is_some(),
+                !images.textures.is_empty() || !images.environments.is_empty(),
+                "--textures",
+                "no shader of the scene reads a picture",
+            ),
+            (self.shader.is_some(), scene.materials().next().is_some(), "--shader", "the scene has no object"),
+        ] {
+            if given && !acts {
+                ui.caution(&format!("{option} has no effect: {needs}"), "");
+            }
+        }
+        for name in renderer.transparent_textures() {
+            let message = format!("the texture {name} has transparent pixels, which are drawn opaque");
+            ui.caution(&message, "transparency is not drawn: paint the picture on a background of its own");
+        }
     }
 
     /// The options of the renderer that are not in the scene.

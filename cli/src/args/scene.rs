@@ -11,7 +11,7 @@ use drape::scene::{self, Flag, Overrides, Scene};
 /// A scene file and changes to it.
 #[derive(clap::Args)]
 pub(crate) struct SceneArgs {
-    /// The scene file (JSON)
+    /// The scene file (JSON); `-` for standard input
     #[arg(value_name = "SCENE")]
     pub(crate) path: PathBuf,
     #[command(flatten)]
@@ -62,7 +62,8 @@ impl SceneArgs {
 
     /// Every file that [`SceneArgs::load`] reads.
     pub(crate) fn inputs(&self) -> Vec<PathBuf> {
-        [&self.path].into_iter().chain(&self.changes.patches).cloned().collect()
+        let files = [&self.path].into_iter().chain(&self.changes.patches);
+        files.filter(|path| path.as_os_str() != "-").cloned().collect()
     }
 }
 

@@ -64,16 +64,21 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load_with_flags(&args.render.flags(), session)?;
     let target = Target::parse(&args.out)?;
     let [width, height] = scene.render.size;
-    let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)? };
+    let background = background(&scene);
+    let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)?, background };
     let schedule = args.schedule(&scene, playback.fps)?;
     args.check_outputs(&scene, &target, &schedule)?;
     target.check(playback)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.render.textures())?;
+    args.render.caution(&scene, &renderer, &session.ui);
     let options = args.render.options(false);
     let sequence = target
         .pattern()
         .map(|pattern| Sequence { pattern, fingerprint: Fingerprint::new(&scene, &renderer, &options) });
+    if let Some(sequence) = &sequence {
+        remove_stale(sequence, schedule.count(), session)?;
+    }
     let pipeline =
         Pipeline { target: &target, playback, schedule: &schedule, renderer: &renderer, options, sequence };
     let drawn = match pipeline.last_missing(session)? {
@@ -87,6 +92,27 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.finish(playback, &schedule, schedule.count() - drawn.pictures, session)?;
     if !drawn.visible {
         warn_of_nothing_visible("the pictures", &session.ui);
+    }
+    Ok(())
+}
+
+/// The background as it is stored in a picture.
+fn background(scene: &Scene) -> [u8; 3] {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+    let level = |c: f64| (c.clamp(0.0, 1.0) * 255.0).round_ties_even() as u8;
+    [0, 1, 2].map(|channel| level(scene.render.background[channel]))
+}
+
+/// Removes what an earlier, longer run has left, and warns of what is not of this program.
+fn remove_stale(sequence: &Sequence<'_>, count: u64, session: &Session) -> Result<()> {
+    let others = sequence.remove_from(count)?;
+    if let Some(first) = others.first() {
+        let message = format!(
+            "{} files from `{}` on have names of the animation, and are not of it",
+            others.len(),
+            first.display()
+        );
+        session.ui.caution(&message, "remove them, or programs that read all numbers show them too");
     }
     Ok(())
 }
@@ -125,7 +151,7 @@ impl Args {
         kept: u64,
         session: &Session,
     ) -> Result<()> {
-        let Playback { width, height, fps } = playback;
+        let Playback { width, height, fps, .. } = playback;
         let (out, pictures) = (self.out.display().to_string(), schedule.count());
         #[expect(clippy::cast_precision_loss, reason = "for people")]
         let seconds = pictures as f64 / f64::from(fps);

@@ -18,7 +18,7 @@ use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_text
 /// The arguments of `check`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The scene files (JSON)
+    /// The scene files (JSON); `-` for standard input
     #[arg(value_name = "SCENE", required = true)]
     paths: Vec<PathBuf>,
     #[command(flatten)]

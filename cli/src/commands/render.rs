@@ -70,6 +70,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.check_outputs(&path, &scene, session)?;
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.render.textures())?;
+    args.render.caution(&scene, &renderer, &session.ui);
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
     let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
     let options = args.render.options(args.ids.is_some());
@@ -96,7 +97,8 @@ impl Args {
 
     /// The path of the picture.
     fn picture_path(&self) -> Result<PathBuf> {
-        let beside = || Some(Path::new(self.scene.path.file_stem()?).with_extension("png"));
+        let named = (self.scene.path.as_os_str() != "-").then_some(&self.scene.path);
+        let beside = || Some(Path::new(named?.file_stem()?).with_extension("png"));
         match self.picture.clone().or_else(beside) {
             Some(path) => Ok(path),
             None => Err(Error::new(Kind::Usage, "the scene has no file name to name the picture after")

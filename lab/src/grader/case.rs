@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::precision::Precision;
 use super::states::State;
 use drape::cloth::{Counters, Points};
 use drape::error::Result;
@@ -61,10 +62,11 @@ impl Ours {
 }
 
 impl Case<'_> {
-    /// The largest distance of two points in each of the states `window`, if ours are `ours`.
-    pub(super) fn distances(&self, window: Range<usize>, ours: &[Ours]) -> Vec<f64> {
+    /// The largest distance of two points in each of the states `window`, if ours are `ours`, beyond what rounding
+    /// theirs to the digits of the file makes.
+    pub(super) fn distances(&self, window: Range<usize>, ours: &[Ours], precision: &Precision) -> Vec<f64> {
         let theirs = &self.theirs[window];
-        ours.iter().zip(theirs).map(|(ours, theirs)| largest(&ours.positions, theirs)).collect()
+        ours.iter().zip(theirs).map(|(ours, theirs)| largest_beyond(&ours.positions, theirs, precision)).collect()
     }
 
     /// The frame of state `k`.
@@ -77,6 +79,20 @@ impl Case<'_> {
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|axis| a[axis] - b[axis]);
     (x * x + y * y + z * z).sqrt()
+}
+
+/// As [`largest`], where each coordinate counts only beyond the rounding of `precision`.
+pub(super) fn largest_beyond(ours: &Points, theirs: &[[f64; 3]], precision: &Precision) -> f64 {
+    let beyond = |ours: f64, theirs: f64| {
+        let off = (ours - theirs).abs();
+        // A comparison with NaN is false.
+        if off <= precision.slack(theirs) { 0.0 } else { off - precision.slack(theirs) }
+    };
+    let distances = theirs.iter().enumerate().map(|(p, theirs)| {
+        let ours: [f64; 3] = ours.get(p).into();
+        distance([0, 1, 2].map(|axis| beyond(ours[axis], theirs[axis])), [0.0; 3])
+    });
+    distances.map(|d| if d.is_finite() { d } else { f64::INFINITY }).fold(0.0, f64::max)
 }
 
 /// The largest distance of two points; infinite if one is not a number.

@@ -2,9 +2,11 @@
 
 use std::num::Wrapping;
 
-use drape::cloth::Points;
+use super::case::Ours;
+use super::plain::{Faults, Plain, Push};
+use drape::cloth::{Counters, Points};
 use drape::cloth::springs::SpringKind;
-use drape::error::Result;
+use drape::error::{Error, Kind, Result};
 use drape::scene::{Cloth, Collider, Orientation, Scene, SelfCollision};
 use drape::simulation::Simulation;
 
@@ -26,6 +28,8 @@ enum Change {
     PlaneOffset(f64),
     /// What tells the cells of self-collision apart.
     CellHash(fn([i64; 3]) -> i64),
+    /// What only a plain program can do.
+    Plain(Faults),
 }
 
 impl Mistake {
@@ -44,10 +48,45 @@ impl Mistake {
             Some(Change::Bending(k)) => simulation.set_stiffness(SpringKind::Bending, k),
             Some(Change::PlaneOffset(offset)) => simulation.set_plane_offset(offset),
             Some(Change::CellHash(hash)) => simulation.set_cell_hash(hash),
-            None => {}
+            Some(Change::Plain(_)) | None => {}
         }
         simulation.allow_unstable();
         Ok(simulation)
+    }
+
+    /// What the mistaken program has at `count` frames from `first` on, started at `start` if that is given.
+    /// `watch` is called after every frame.
+    ///
+    /// # Errors
+    /// Those of the simulation, of [`Kind::Unstable`] when a point has no finite place, and of `watch`.
+    pub(super) fn states(
+        &self,
+        start: Option<&Points>,
+        first: u64,
+        count: usize,
+        watch: &dyn Fn() -> Result<()>,
+    ) -> Result<Vec<Ours>> {
+        let simulation = self.simulation(start)?;
+        let (Some(Change::Plain(faults)), Some(cloth)) = (self.change, &self.scene.cloth) else {
+            return Ours::simulate(simulation, first, count, |_| watch());
+        };
+        let mut plain = Plain::new(&self.scene, cloth, simulation.positions(), faults);
+        let mut states = Vec::new();
+        for frame in 0..first + count as u64 {
+            if frame >= first {
+                states.push(Ours { positions: plain.positions(), counters: Counters::default() });
+            }
+            watch()?;
+            if !plain.advance_frame() {
+                return Err(Error::new(Kind::Unstable, "a point has no finite place"));
+            }
+        }
+        Ok(states)
+    }
+
+    /// The mistake of another stiffness of bending springs, in N/m.
+    pub(super) fn of_bending(name: impl Into<String>, scene: &Scene, stiffness: f64) -> Self {
+        Self { name: name.into(), scene: scene.clone(), change: Some(Change::Bending(stiffness)) }
     }
 }
 
@@ -68,7 +107,32 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
     if scene.sim.self_collision == SelfCollision::SameBox {
         mistakes.extend(cell_hashes(scene));
     }
+    if Plain::can(scene) {
+        mistakes.extend(plain(scene));
+    }
     mistakes
+}
+
+/// The mistakes that neither a scene nor the engine can make.
+fn plain(scene: &Scene) -> Vec<Mistake> {
+    let none = Faults::default();
+    let pushes = |push| Faults { push, ..none };
+    let mut faults = vec![("forces that are not set to 0 before each step", Faults { kept_forces: true, ..none })];
+    if scene.sim.self_collision == SelfCollision::SameBox {
+        faults.extend([
+            ("self-collision that pushes the other points too, each by its own distance", pushes(Push::MeanAndEach)),
+            ("self-collision that pushes the other points too, by the mean", pushes(Push::MeanBack)),
+            ("self-collision that pushes both points of each pair by the whole distance", pushes(Push::Both)),
+            ("self-collision that pushes both points of each pair by half of the distance", pushes(Push::BothHalf)),
+            ("self-collision not divided by the steps of a frame", Faults { whole_push: true, ..none }),
+            ("cells of 3 width / (W - 1) instead of 3 width / W", Faults { wide_cells: true, ..none }),
+        ]);
+    }
+    if scene.sim.stretch_limit.is_some() {
+        let limit = "a stretch limit along the vector between the points, which has not the length 1";
+        faults.push((limit, Faults { unnormalised_limit: true, ..none }));
+    }
+    faults.into_iter().map(|(name, faults)| changed(name, scene, Change::Plain(faults))).collect()
 }
 
 /// The mistakes that a changed scene makes.

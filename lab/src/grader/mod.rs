@@ -5,11 +5,14 @@
 //! other program's positions.
 
 mod states;
+mod precision;
 mod case;
 mod divergence;
+mod plain;
 mod mistakes;
 mod numbers;
 mod trials;
+mod chaos;
 mod verdict;
 mod comparison;
 

@@ -6,7 +6,6 @@ use super::states::State;
 use drape::cloth::Points;
 use drape::error::{Kind, Result};
 use drape::scene::{Cloth, Scene};
-use drape::simulation::Simulation;
 
 /// The most iterations of a fit.
 const ITERATIONS: usize = 6;
@@ -21,32 +20,45 @@ const SETTLED: f64 = 1e-7;
 pub(super) struct Number {
     name: &'static str,
     of: fn(&Scene, &Cloth) -> f64,
-    set: fn(&mut Scene, f64),
+    set: Set,
+}
+
+/// What has a number.
+enum Set {
+    /// A scene.
+    Scene(fn(&mut Scene, f64)),
+    /// The bending springs: their part of `cloth.ks`.
+    Bending,
 }
 
 /// The numbers that are fitted. Stiffness and density act only by their quotient, so one stands for both.
-pub(super) const NUMBERS: [Number; 5] = [
+pub(super) const NUMBERS: [Number; 6] = [
     Number {
         name: "gravity",
         of: |scene, _| scene.sim.gravity.norm(),
-        set: |scene, value| scene.sim.gravity *= value / scene.sim.gravity.norm(),
+        set: Set::Scene(|scene, value| scene.sim.gravity *= value / scene.sim.gravity.norm()),
     },
     Number {
         name: "cloth.damping",
         of: |_, cloth| cloth.damping,
-        set: |scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.damping = value),
+        set: Set::Scene(|scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.damping = value)),
     },
     Number {
         name: "cloth.ks (or density the other way round)",
         of: |_, cloth| cloth.ks,
-        set: |scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.ks = value),
+        set: Set::Scene(|scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.ks = value)),
     },
-    Number { name: "sim.fps", of: |scene, _| scene.sim.fps, set: |scene, value| scene.sim.fps = value },
+    Number {
+        name: "sim.fps",
+        of: |scene, _| scene.sim.fps,
+        set: Set::Scene(|scene, value| scene.sim.fps = value),
+    },
     Number {
         name: "cloth.thickness",
         of: |_, cloth| cloth.thickness,
-        set: |scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.thickness = value),
+        set: Set::Scene(|scene, value| scene.cloth.iter_mut().for_each(|cloth| cloth.thickness = value)),
     },
+    Number { name: "bending springs with a part of ks", of: |_, _| 0.2, set: Set::Bending },
 ];
 
 /// The state that a number is fitted to, and the start of ours.
@@ -83,15 +95,20 @@ impl Number {
             }
         }
         let value = shortened(value, (value - right).abs());
-        let scene = self.changed(target.scene, value);
-        Ok((value != right)
-            .then(|| Mistake::of(format!("{} of {value} instead of {right}", self.name), scene)))
+        let name = format!("{} of {value} instead of {right}", self.name);
+        Ok((value != right).then(|| self.mistake(name, target, value)))
     }
 
-    fn changed(&self, scene: &Scene, value: f64) -> Scene {
-        let mut scene = scene.clone();
-        (self.set)(&mut scene, value);
-        scene
+    /// The mistake of another value.
+    fn mistake(&self, name: String, target: &Target<'_>, value: f64) -> Mistake {
+        match self.set {
+            Set::Scene(set) => {
+                let mut scene = target.scene.clone();
+                set(&mut scene, value);
+                Mistake::of(name, scene)
+            }
+            Set::Bending => Mistake::of_bending(name, target.scene, value * target.cloth.ks),
+        }
     }
 
     /// Ours minus theirs, all components, with the number at `value`; `None` if ours becomes unstable.
@@ -101,8 +118,7 @@ impl Number {
         value: f64,
         watch: &dyn Fn() -> Result<()>,
     ) -> Result<Option<Vec<f64>>> {
-        let mut simulation = Simulation::starting_at(&self.changed(target.scene, value), target.start)?;
-        simulation.allow_unstable();
+        let mut simulation = self.mistake(String::new(), target, value).simulation(target.start)?;
         while simulation.frame() < target.frame {
             watch()?;
             match simulation.advance_frame() {

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::case::{Case, Ours};
 use super::mistakes::Mistake;
+use super::precision::Precision;
 use drape::error::{Kind, Result};
 
 /// The most states after the first clear difference that a mistake is compared with. Later ones are chaotic.
@@ -48,17 +49,16 @@ pub(super) fn run(
     case: &Case<'_>,
     mistakes: &[Mistake],
     k: usize,
+    precision: &Precision,
     watch: &(dyn Fn(u64) -> Result<()> + Sync),
 ) -> Result<Vec<Tried>> {
     let ahead = case.theirs[k..].iter().take(WINDOW);
     let finite = ahead.take_while(|state| state.as_flattened().iter().all(|x| x.is_finite()));
     let window = k..k + finite.count();
-    let error = |ours: &[Ours]| case.distances(window.clone(), ours).iter().sum::<f64>();
+    let error = |ours: &[Ours]| case.distances(window.clone(), ours, precision).iter().sum::<f64>();
     let without = error(&case.ours[window.clone()]);
     let tried = mistakes.par_iter().map(|mistake| {
-        let states = mistake
-            .simulation(case.start.as_ref())
-            .and_then(|simulation| Ours::simulate(simulation, case.frame(k), window.len(), |_| watch(0)));
+        let states = mistake.states(case.start.as_ref(), case.frame(k), window.len(), &|| watch(0));
         watch(1)?;
         let left = match states {
             // A mistake that is unstable is not the one that was made.

@@ -4,9 +4,11 @@
 //! thousand in a hundred frames; a mistake moves them by more at once. So the first state is examined
 //! whose difference is too large for rounding.
 
-use super::case::{Case, ROUNDING, largest};
+use super::case::{Case, ROUNDING, largest_beyond};
+use super::chaos;
 use super::mistakes::{self, Mistake};
 use super::numbers::{NUMBERS, Target};
+use super::precision::Precision;
 use super::states::State;
 use super::trials::{self, Tried, WINDOW};
 use drape::cloth::Counters;
@@ -53,30 +55,33 @@ impl Verdict {
         tolerance: f64,
         watch: &(dyn Fn(u64) -> Result<()> + Sync),
     ) -> Result<Self> {
-        let distances = case.distances(0..case.theirs.len(), case.ours);
+        let precision = &Precision::of(case.theirs);
+        let distances = case.distances(0..case.theirs.len(), case.ours, precision);
         let Some(k) = distances.iter().position(|&distance| distance > CLEAR.max(tolerance)) else {
-            return Ok(Self::only(rounding(&distances)));
+            return Ok(Self::only(rounding(&distances, precision)));
         };
-        if let Some(words) = not_a_number(case, k).or_else(|| other_order(case, k)) {
+        if let Some(words) = not_a_number(case, k).or_else(|| other_order(case, k, precision)) {
             return Ok(Self::only(words));
         }
-        if let Some(words) = other_frame(case, k, watch)? {
+        if let Some(words) = other_frame(case, k, precision, watch)? {
             return Ok(Self::only(words));
         }
-        if grew(&distances[..=k]) {
-            return Ok(Self::only(
-                "this grew out of rounding without a jump, as it does after contact: the same method with its \
-                 operations in another order",
-            ));
+        if grew(&distances[..=k]) && chaos::reaches(case, &distances[..=k], &|| watch(0))? {
+            return Ok(Self::only(chaos::words(case, k)));
         }
-        Self::by_trials(case, k, watch)
+        Self::by_trials(case, k, precision, watch)
     }
 
     /// The verdict on state `k` after running the mistakes.
-    fn by_trials(case: &Case<'_>, k: usize, watch: &(dyn Fn(u64) -> Result<()> + Sync)) -> Result<Self> {
-        let mut mistakes = trials::run(case, &mistakes::all(case.scene), k, watch)?;
+    fn by_trials(
+        case: &Case<'_>,
+        k: usize,
+        precision: &Precision,
+        watch: &(dyn Fn(u64) -> Result<()> + Sync),
+    ) -> Result<Self> {
+        let mut mistakes = trials::run(case, &mistakes::all(case.scene), k, precision, watch)?;
         if mistakes.first().is_none_or(|best| !best.explains()) {
-            mistakes.extend(trials::run(case, &wrong_numbers(case, k, watch)?, k, watch)?);
+            mistakes.extend(trials::run(case, &wrong_numbers(case, k, watch)?, k, precision, watch)?);
             mistakes.sort_by(|a, b| a.left.total_cmp(&b.left));
         }
         let words = match mistakes.first() {
@@ -88,14 +93,20 @@ impl Verdict {
             Some(best) if best.left <= RESEMBLES => {
                 format!("this is most like the mistake: {}", best.mistake)
             }
-            _ => suspects(case, case.ours[k].counters),
+            _ => suspects(case, case.ours[k].counters) + &hidden(case, k, precision),
         };
         Ok(Self { words, mistakes })
     }
 }
 
 /// The verdict on differences that are small enough for rounding.
-fn rounding(distances: &[f64]) -> String {
+fn rounding(distances: &[f64], precision: &Precision) -> String {
+    if let Some(digits) = precision.words().filter(|_| distances.iter().all(|&distance| distance == 0.0)) {
+        return format!(
+            "every difference is rounding to the {digits} of the file: as far as they tell, the positions are those of \
+             the method. What is smaller is not seen: write 17 digits (%.17g) to compare every bit"
+        );
+    }
     let rounding = "this looks like rounding: the same method with its operations in another order, or written with \
                     fewer than 17 digits";
     let grown = distances.last().is_some_and(|&last| last > ROUNDING) && distances.len() < WINDOW;
@@ -118,7 +129,7 @@ fn not_a_number(case: &Case<'_>, k: usize) -> Option<String> {
 }
 
 /// The verdict on a state `k` that is ours, written in another order.
-fn other_order(case: &Case<'_>, k: usize) -> Option<String> {
+fn other_order(case: &Case<'_>, k: usize, precision: &Precision) -> Option<String> {
     let (theirs, ours) = (&case.theirs[k], &case.ours[k].positions);
     let (width, height) = (case.cloth.num_width_points, case.cloth.num_height_points);
     let by_columns = |p: usize| theirs[(p % width) * height + p / width];
@@ -127,7 +138,7 @@ fn other_order(case: &Case<'_>, k: usize) -> Option<String> {
         ("from the last row to the first", theirs.chunks(width).rev().flatten().copied().collect()),
         ("as x z y, not x y z", theirs.iter().map(|&[x, z, y]| [x, y, z]).collect()),
     ];
-    let right = orders.iter().find(|(_, state)| largest(ours, state) <= CLEAR)?;
+    let right = orders.iter().find(|(_, state)| largest_beyond(ours, state, precision) <= CLEAR)?;
     Some(format!("the positions are those of the method, but written {}", right.0))
 }
 
@@ -135,11 +146,14 @@ fn other_order(case: &Case<'_>, k: usize) -> Option<String> {
 fn other_frame(
     case: &Case<'_>,
     k: usize,
+    precision: &Precision,
     watch: &(dyn Fn(u64) -> Result<()> + Sync),
 ) -> Result<Option<String>> {
     let mut simulation = Simulation::starting_at(case.scene, case.start.as_ref())?;
     simulation.allow_unstable();
-    let near = |simulation: &Simulation, state: &State| largest(simulation.positions(), state) <= CLEAR;
+    let near = |simulation: &Simulation, state: &State| {
+        largest_beyond(simulation.positions(), state, precision) <= CLEAR
+    };
     while simulation.frame() <= case.last_frame {
         watch(0)?;
         let (frame, here) = (simulation.frame(), near(&simulation, &case.theirs[k]));
@@ -207,6 +221,16 @@ fn suspects(case: &Case<'_>, counters: Counters) -> String {
     format!(
         "none of the known mistakes explains the difference; it may be another one, or two at once. It is in what had \
          acted by then: {always}{acted}{single}{depths}"
+    )
+}
+
+/// What the digits of the file hide, if a difference may have grown behind them.
+fn hidden(case: &Case<'_>, k: usize, precision: &Precision) -> String {
+    let collided = case.ours[k].counters.object_moves + case.ours[k].counters.self_collision_moves > 0;
+    let Some(digits) = precision.words().filter(|_| collided && k > 0) else { return String::new() };
+    format!(
+        ". The file has {digits}, behind which rounding may have grown since the first contact: write 17 digits \
+         (%.17g) to tell it from a mistake"
     )
 }
 

@@ -35,6 +35,11 @@ impl Row<'_> {
     }
 }
 
+/// A heading and why the pictures below it were not compared.
+pub fn unread(title: &str, why: &str) -> String {
+    format!("<h2>{}</h2><p>not compared: {}</p>\n", html::escape(title), html::escape(why))
+}
+
 /// A picture with its caption below it.
 ///
 /// # Errors

@@ -12,6 +12,7 @@ use super::harness::context::Context;
 use super::harness::device::Device;
 use super::harness::lines::LineTally;
 use super::harness::object::objects;
+use super::harness::samples::{differences, sampled};
 use super::harness::tally::Tally;
 use drape::cloth::Points;
 use drape::render::{Options, Renderer, Shading};
@@ -82,6 +83,12 @@ fn cases() -> Vec<Case> {
             cases.push(Case { scene: "sphere", seconds: 0, shader, sets });
         }
     }
+    let cures = ["material.two_sided=true", "material.bitangent=uv", "render.seamless=true"].map(String::from);
+    for shader in [Shader::Diffuse, Shader::Phong, Shader::Bump, Shader::Displacement, Shader::Mirror, Shader::Custom] {
+        let low = ["camera.polar=100", "camera.distance=1.4", "render.size=[333,217]"].map(String::from);
+        let sets = [&cures[..], &low, &MATERIAL.iter().map(|set| set.to_string()).collect::<Vec<_>>()].concat();
+        cases.push(Case { scene: "sphere", seconds: 1, shader, sets });
+    }
     let sets = vec![format!("plane=[{PLANE},{PLANE}]")];
     cases.push(Case { scene: "plane", seconds: 2, shader: Shader::Normal, sets });
     cases
@@ -145,6 +152,28 @@ fn compare_lines(device: &mut Device<'_>) -> LineTally {
     tally
 }
 
+/// Pictures of four samples: with `centroid` the driver shades where we do, and without it elsewhere. Returns how many
+/// pixels are more than two levels apart, with and without, of how many.
+fn compare_samples(context: &Context, states: &[(&str, [Points; 3])]) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for (column, qualifier) in ["centroid", ""].into_iter().enumerate() {
+        let mut device = Device::qualified(context, qualifier);
+        for (name, shader) in [("sphere", "phong"), ("plane", "texture"), ("pinned2", "bump"), ("sphere", "normal")] {
+            let (_, states) = states.iter().find(|(of, _)| *of == name).unwrap();
+            let shader = format!("material.shader={shader}");
+            let sets = ["render.samples=4", "render.size=[320,250]", "camera.polar=70", "material.texture=texture_4", &shader];
+            let scene = scene(name, sets.map(String::from).to_vec());
+            let renderer = Renderer::new(&scene, &TextureSource::BuiltIn).unwrap();
+            let own = renderer.draw(&states[1], &Options::default());
+            let gl = sampled(&mut device, &scene, &objects(&scene, &states[1]));
+            let apart = differences(&own.rgb, &gl);
+            counts[column] += apart.iter().filter(|&&levels| levels > 2).count();
+            counts[2] += if column == 0 { apart.len() } else { 0 };
+        }
+    }
+    counts
+}
+
 #[test]
 fn opengl_draws_the_same_pictures() {
     let context = match Context::open() {
@@ -169,5 +198,10 @@ fn opengl_draws_the_same_pictures() {
     let lines = compare_lines(&mut device);
     println!("{lines}");
     faults.extend(lines.faults());
+    let [with, without, pixels] = compare_samples(&context, &states);
+    println!("four samples: of {pixels} pixels {with} differ with centroid, {without} without");
+    if 2000 * with > pixels || without < 4 * with {
+        faults.push(format!("four samples: {with} of {pixels} differ with centroid, {without} without"));
+    }
     assert!(faults.is_empty(), "{faults:#?}");
 }

@@ -1,6 +1,6 @@
 //! The comparator of pictures fails when it must: no difference is too small, none is hidden.
 
-use drape::output::compare::{Budget, Difference, difference_picture, triptych};
+use drape::output::compare::{Allowed, Budget, Difference, difference_picture, triptych};
 use drape::output::png::Pixels;
 use proptest::prelude::*;
 
@@ -130,10 +130,30 @@ fn budgets_count_per_band_of_magnitudes() {
 
 #[test]
 fn budgets_that_make_no_sense_are_refused() {
-    for text in ["", "5", ":", "5:", ":5", "0:5", "256:1", "-1:1", "5:-1", "5:1:1", "5:x", "5.0:1"] {
+    for text in ["", "5", ":", "5:", ":5", "0:5", "256:1", "-1:1", "5:-1", "5:1:1", "5:x", "5.0:1", "%", "5:%", "-1%", "101%", "NaN%"] {
         assert!(text.parse::<Budget>().is_err(), "{text}");
     }
-    assert_eq!("255:0".parse(), Ok(Budget { magnitude: 255, count: 0 }));
+    assert_eq!("255:0".parse(), Ok(Budget { magnitude: 255, count: Allowed::Pixels(0) }));
+    assert_eq!("0.5%".parse(), Ok(Budget { magnitude: 255, count: Allowed::Percent(0.5) }));
+    assert_eq!("3:2%".parse(), Ok(Budget { magnitude: 3, count: Allowed::Percent(2.0) }));
+}
+
+#[test]
+fn a_percentage_is_of_the_pixels_that_are_compared() {
+    let a = Pixels { width: 10, height: 20, rgba: vec![[0, 0, 0, 255]; 200] };
+    let b = changed(&changed(&a, 0, |pixel| pixel[0] = 9), 1, |pixel| pixel[1] = 3);
+    let all = Difference::between(&a, &b);
+    assert!(all.is_within(&budgets(&["1%"])) && !all.is_within(&budgets(&["0.99%"])));
+    assert!(all.is_within(&budgets(&["3:0.5%", "9:0.5%"])) && !all.is_within(&budgets(&["3:1%"])));
+    // Of the first hundred alone, two are more than one percent.
+    let part = Difference::between_where(&a, &b, |i| i < 100);
+    assert_eq!((part.pixels(), part.differing()), (100, 2));
+    assert!(part.is_within(&budgets(&["2%"])) && !part.is_within(&budgets(&["1.9%"])));
+    let rest = Difference::between_where(&a, &b, |i| i >= 2);
+    assert!(rest.is_within(&[]) && rest.rmse == 0.0);
+    let joined = Difference::joined(&[part.clone(), rest]);
+    assert_eq!((joined.pixels(), joined.differing(), joined.max()), (298, 2, 9));
+    assert!((joined.rmse - (90.0_f64 / 3.0 / 298.0).sqrt()).abs() < 1e-15, "{}", joined.rmse);
 }
 
 #[test]

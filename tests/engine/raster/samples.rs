@@ -127,10 +127,10 @@ proptest! {
     }
 }
 
-/// Colours come from the varying at the pixel's centre, whichever samples are covered, and the
-/// fragment program is run once a pixel and triangle.
+/// The fragment program is run once a pixel and triangle: with the varyings at the pixel's centre if all samples
+/// are covered, else at the first sample that is.
 #[test]
-fn a_primitive_is_shaded_once_a_pixel_at_its_centre() {
+fn a_primitive_is_shaded_once_a_pixel_inside_of_it() {
     let vertex = |x: f32, y: f32| Vertex { clip: [x, y, 0.0, 1.0], varyings: [(x + 1.0) * 16.0, 0.0, 0.0] };
     let vertices = [vertex(-0.9, -0.8), vertex(0.95, -0.3), vertex(-0.2, 0.9)];
     for samples in [1, 4, 8, 16] {
@@ -149,8 +149,55 @@ fn a_primitive_is_shaded_once_a_pixel_at_its_centre() {
         let runs = runs.into_inner().unwrap();
         // Runs are filled up to whole blocks of eight.
         assert_eq!(runs.len() as u64, shown.next_multiple_of(8), "{samples} samples");
-        let off_centre = |x: f64| (x - x.floor() - 0.5).abs() > 1e-4;
-        assert!(!runs.iter().any(|&[x, ..]| off_centre(x)), "{samples} samples");
+        let triangle = [0, 1, 2].map(|i| snapped(vertices[i].clip, CANVAS));
+        let mut expected: Vec<f64> = CANVAS
+            .pixels()
+            .filter_map(|pixel| {
+                let points = samples_of(pixel, samples);
+                let first = points.iter().find(|&&point| covers(triangle, point))?;
+                let all = points.iter().all(|&point| covers(triangle, point));
+                Some(if all { f64::from(pixel[0]) + 0.5 } else { first[0] as f64 / 256.0 })
+            })
+            .collect();
+        // Some fragments are repeated to fill up a block.
+        let mut found: Vec<f64> = runs.iter().map(|&[x, ..]| x).collect();
+        [&mut expected, &mut found].into_iter().for_each(|places| places.sort_by(f64::total_cmp));
+        let missing = |of: &[f64], places: &[f64]| {
+            of.iter().filter(|&x| !places.iter().any(|place| (x - place).abs() < 1e-4)).count()
+        };
+        assert_eq!((missing(&expected, &found), missing(&found, &expected)), (0, 0), "{samples} samples");
+        let off_centre = expected.iter().filter(|x| (*x - x.floor() - 0.5).abs() > 1e-4).count();
+        assert!(if samples == 1 { off_centre == 0 } else { off_centre > 30 }, "{off_centre}");
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    /// What is interpolated never leaves the range of the corners, however narrow the triangle: no white fringe on
+    /// black.
+    #[test]
+    fn nothing_is_taken_from_beyond_an_edge(
+        corners in prop::array::uniform3(position()), w in prop::array::uniform3(0.2..5.0_f32), samples in count(),
+    ) {
+        let vertex = |i: usize| {
+            let [x, y, z, _] = corners[i];
+            Vertex { clip: [x * w[i], y * w[i], z * w[i], w[i]], varyings: [[0.0, 0.5, 1.0][i], 0.0, 0.0] }
+        };
+        let runs = Mutex::new(Vec::new());
+        let triangles = Primitives::Triangles(&[[0, 1, 2]]);
+        let call = DrawCall::one_by_one::<f32, _, _, 3>(triangles, 3, vertex, program, Record(&runs));
+        let _ = CANVAS.samples(samples).draw(&[call]);
+        // Snapping to 1/256 pixel covers samples that far beyond the edge.
+        let window = [0, 1, 2].map(|i| window(vertex(i).clip, CANVAS).map(f64::from));
+        let side = |i: usize| [0, 1].map(|k| window[(i + 1) % 3][k] - window[i][k]);
+        let area = (side(0)[0] * side(1)[1] - side(0)[1] * side(1)[0]).abs();
+        let longest = (0..3).map(|i| side(i)[0].hypot(side(i)[1])).fold(0.0, f64::max);
+        let ratio = f64::from(w.into_iter().fold(0.0, f32::max) / w.into_iter().fold(9.0, f32::min));
+        let beyond = ratio * longest / area / 128.0 + 1e-5;
+        for [value, ..] in runs.into_inner().unwrap() {
+            prop_assert!(value > -beyond && value < 1.0 + beyond, "{value}, {beyond} at most, {samples} samples");
+        }
     }
 }
 

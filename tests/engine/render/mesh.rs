@@ -27,6 +27,25 @@ fn assert_frames(mesh: &Mesh) {
     }
 }
 
+/// The picture is not mirrored: seen from the side of the normal, v grows to the right of where u grows. And the
+/// tangent is dp/du where triangles are flat.
+fn assert_reads_from_outside(mesh: &Mesh) {
+    for &triangle in &mesh.triangles {
+        let [p, q, r] = triangle.map(|i| vector(mesh.positions[i as usize]));
+        let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].map(f64::from));
+        let ([u1, v1], [u2, v2]) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+        let turn = u1 * v2 - u2 * v1;
+        let (along_u, along_v) = (((q - p) * v2 - (r - p) * v1) / turn, ((r - p) * u1 - (q - p) * u2) / turn);
+        for vertex in triangle {
+            let (n, t) = (vector(mesh.normals[vertex as usize]), vector(mesh.tangents[vertex as usize]));
+            // A triangle at a pole of a ball has no area.
+            let flat = (q - p).cross(&(r - p)).norm() < 1e-9;
+            assert!(flat || t.dot(&along_u) > 0.0, "u grows along the tangent");
+            assert!(flat || n.cross(&t).dot(&along_v) < 0.0, "v grows along t x n: {triangle:?}");
+        }
+    }
+}
+
 fn stock_cloth() -> Cloth {
     scenes::pinned2().cloth.expect("a cloth")
 }
@@ -43,6 +62,16 @@ fn a_sphere_has_its_analytic_normals_and_tangents() {
         assert!((vector(tangent) - around).norm() < 1e-6, "the tangent runs along the latitude");
     }
     assert_eq!((mesh.uvs[0], mesh.uvs[41 * 41 - 1]), ([0.0, 0.0], [1.0, 1.0]));
+    assert_reads_from_outside(&mesh);
+}
+
+#[test]
+fn a_cloth_reads_from_the_side_of_its_normal() {
+    for scene in [scenes::pinned2(), scenes::self_collision()] {
+        let cloth = scene.cloth.expect("a cloth");
+        let points = grid::start(&cloth, grid::Grid::new(&cloth).expect("a grid")).expect("points");
+        assert_reads_from_outside(&Mesh::cloth(&cloth, &points, ALL));
+    }
 }
 
 #[test]
@@ -59,7 +88,7 @@ fn a_plane_has_one_frame_whatever_the_length_of_its_normal() {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| vector(mesh.positions[i]));
         let sides = [(a - b).norm(), (a - c).norm(), (b - d).norm(), (c - d).norm()];
         assert!(sides.iter().all(|side| (side - 4.0).abs() < 1e-6), "4 m wide: {sides:?}");
-        assert!((vector(mesh.tangents[0]) - (b - a).normalize()).norm() < 1e-6, "the tangent is dp/du");
+        assert_reads_from_outside(&mesh);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 
 use drape::scene::{
-    Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides,
+    Bitangent, Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides,
     Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
 };
 
@@ -35,6 +35,8 @@ fn material() -> Material {
         texture: "texture_1".into(),
         height_map: "texture_2".into(),
         environment: "cube".into(),
+        bitangent: Bitangent::NormalCrossTangent,
+        two_sided: false,
     }
 }
 
@@ -65,6 +67,7 @@ fn empty() -> Scene {
             azimuth: 0.0,
             hfov: 50.0,
             vfov: 35.0,
+            fit: false,
             near: 0.01,
             far: 10_000.0,
         },
@@ -79,6 +82,7 @@ fn empty() -> Scene {
             background: Vec3::new(0.25, 0.25, 0.25),
             time: 2.0,
             filter: Filter::Bilinear,
+            seamless: false,
         },
     }
 }
@@ -165,14 +169,16 @@ fn every_optional_key_is_read() {
       "sim": {"fps": 30, "steps_per_frame": 5, "gravity": [1, 2, 3], "integrator": "verlet", "precision": "f64",
               "start": "half_step", "damping": "per_second", "stretch_limit": null, "stretch_passes": 7,
               "self_collision": "neighbors", "contact": "outside"},
-      "camera": {"target": [1, 2, 3], "distance": 4, "polar": 5, "azimuth": -6, "hfov": 7, "vfov": 8, "near": 9,
+      "camera": {"target": [1, 2, 3], "distance": 4, "polar": 5, "azimuth": -6, "hfov": 7, "vfov": 8, "fit": true, "near": 9,
                  "far": 10},
       "light": {"position": [1, 2, 3], "intensity": [4, 5, 6], "color": [0, 0, 7]},
       "material": {"shader": "custom", "color": [0.1, 0.2, 0.3], "ka": 1, "kd": 2, "ks": 3, "shininess": 4, "km": 5,
-                   "normal_scaling": -6, "height_scaling": -7, "texture": "a", "height_map": "b", "environment": "c"},
+                   "normal_scaling": -6, "height_scaling": -7, "texture": "a", "height_map": "b", "environment": "c",
+                   "bitangent": "uv", "two_sided": true},
       "sphere": [{"origin": [1, 2, 3], "radius": 4, "friction": 1, "resolution": [16, 8]}],
       "plane": {"point": [1, 2, 3], "normal": [0, 0, -4], "friction": 0},
-      "render": {"size": [640, 480], "samples": 16, "background": [0, 1, 0], "time": 0, "filter": "nearest"}
+      "render": {"size": [640, 480], "samples": 16, "background": [0, 1, 0], "time": 0, "filter": "nearest",
+                 "seamless": true}
     }"#;
     let v123 = Vec3::new(1.0, 2.0, 3.0);
     let material = Material {
@@ -188,6 +194,8 @@ fn every_optional_key_is_read() {
         texture: "a".into(),
         height_map: "b".into(),
         environment: "c".into(),
+        bitangent: Bitangent::Uv,
+        two_sided: true,
     };
     let expected = Scene {
         cloth: None,
@@ -210,6 +218,7 @@ fn every_optional_key_is_read() {
             azimuth: -6.0,
             hfov: 7.0,
             vfov: 8.0,
+            fit: true,
             near: 9.0,
             far: 10.0,
         },
@@ -235,6 +244,7 @@ fn every_optional_key_is_read() {
             background: Vec3::new(0.0, 1.0, 0.0),
             time: 0.0,
             filter: Filter::Nearest,
+            seamless: true,
         },
     };
     assert_eq!(with(text, &[]), expected);

@@ -188,6 +188,9 @@ fn every_fragment_program_is_its_glsl() {
     let (phong, bump) = (read("phong.rs"), read("bump.rs"));
     assert_eq!(function_differs("blinn_phong", &read("phong.frag"), &phong), None);
     assert_eq!(function_differs("bumped_normal", &read("bump.frag"), &bump), None);
+    for stem in ["diffuse", "phong", "bump", "displacement", "custom"] {
+        assert_eq!(function_differs("facing", &read(&format!("{stem}.frag")), &phong), None, "{stem}");
+    }
 }
 
 #[test]

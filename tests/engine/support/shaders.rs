@@ -7,7 +7,7 @@ use drape::{
     scene::Filter,
     shader::{
         Uniforms,
-        sampler::{Sampler2d, SamplerCube},
+        sampler::{Sampler2d, SamplerCube, Wrap},
     },
     texture::Texture,
 };
@@ -33,6 +33,8 @@ pub(crate) fn uniforms() -> Uniforms {
         u_km: 0.25,
         u_normal_scaling: 2.0,
         u_height_scaling: 0.1,
+        u_bitangent: 1.0,
+        u_two_sided: 0.0,
     }
 }
 
@@ -58,12 +60,12 @@ pub(crate) fn cube(face: impl FnMut(usize) -> Texture) -> Cubemap {
 
 /// Bilinear lookups.
 pub(crate) fn smooth(texture: &Texture) -> Sampler2d<'_> {
-    Sampler2d { texture, filter: Filter::Bilinear }
+    Sampler2d { texture, filter: Filter::Bilinear, wrap_v: Wrap::Repeat }
 }
 
 /// Bilinear lookups within the faces.
 pub(crate) fn smooth_cube(cubemap: &Cubemap) -> SamplerCube<'_> {
-    SamplerCube { cubemap, filter: Filter::Bilinear }
+    SamplerCube { cubemap, filter: Filter::Bilinear, seamless: false }
 }
 
 /// Any number in -1..1, the same for the same `i`.

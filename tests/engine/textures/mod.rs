@@ -7,6 +7,7 @@ mod built_in;
 mod decoding;
 mod seams;
 mod sources;
+mod upright;
 
 #[path = "../../../examples/make_textures/paint/mod.rs"]
 mod paint;

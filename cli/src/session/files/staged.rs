@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::atomic::{self, persist, temporary_beside};
-use super::target::{Target, failed, target};
+use super::target::{Target, failed, no_temporary, target};
 use drape::error::Result;
 
 /// A temporary file that [`Staged::finish`] renames to its place; dropped before that, it is removed.
@@ -24,10 +24,9 @@ impl Staged {
     /// As [`atomic::write`].
     pub(crate) fn create(path: &Path) -> Result<Self> {
         let temporary = match target(path)? {
-            Target::File(file) => temporary_beside(&file),
-            Target::Stdout | Target::Stream(_) => NamedTempFile::new(),
+            Target::File(file) => temporary_beside(&file).map_err(|e| failed(path, &e))?,
+            Target::Stdout | Target::Stream(_) => NamedTempFile::new().map_err(|e| no_temporary(&e))?,
         };
-        let temporary = temporary.map_err(|e| failed(path, &e))?;
         Ok(Self { path: path.to_path_buf(), temporary })
     }
 

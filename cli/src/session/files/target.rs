@@ -71,6 +71,13 @@ fn is_folder(path: &Path) -> Error {
         .with_help("name a file in that folder")
 }
 
+/// The error of a temporary file that cannot be made in the system's folder for them.
+pub(crate) fn no_temporary(cause: &io::Error) -> Error {
+    let folder = std::env::temp_dir();
+    let error = Error::new(Kind::Io, format!("cannot make a temporary file in `{}`: {cause}", folder.display()));
+    error.with_help("set TMPDIR to a folder that exists and can be written to")
+}
+
 /// The error of a failed write. A closed pipe counts as the signal for it.
 pub(crate) fn failed(path: &Path, cause: &io::Error) -> Error {
     if cause.kind() == io::ErrorKind::BrokenPipe {

@@ -33,7 +33,7 @@ impl Alone {
         let vertices = indices.iter().map(|&i| object.mesh.vertex(i as usize));
         let uniforms = object.uniforms(scene, camera);
         let corners = if let Some(texture) = height_map {
-            let sampler = Sampler2d { texture, filter: scene.render.filter };
+            let sampler = Sampler2d { texture, filter: scene.render.filter, wrap_v: object.wrap_v() };
             let program = displacement::vertex(&uniforms, sampler);
             vertices.map(|vertex| program(&vertex).0).collect()
         } else {

@@ -23,6 +23,7 @@ pub(crate) struct GlPicture {
 /// The driver with what was given to it so far.
 pub(crate) struct Device<'a> {
     pub(crate) gl: &'a glow::Context,
+    qualifier: &'static str,
     programs: Vec<(Shader, Programs)>,
     textures: Vec<(String, glow::Texture, [f32; 2])>,
 }
@@ -38,6 +39,11 @@ pub(crate) struct Uploaded {
 
 impl<'a> Device<'a> {
     pub(crate) fn new(context: &'a Context) -> Self {
+        Self::qualified(context, "")
+    }
+
+    /// As [`Device::new`], with a qualifier before each varying.
+    pub(crate) fn qualified(context: &'a Context, qualifier: &'static str) -> Self {
         let gl = &context.gl;
         unsafe {
             gl.enable(glow::DEPTH_TEST);
@@ -48,12 +54,14 @@ impl<'a> Device<'a> {
             // seamless cube maps or multisampling; lines one pixel wide.
             gl.disable(glow::DITHER);
         }
-        Self { gl, programs: Vec::new(), textures: Vec::new() }
+        Self { gl, qualifier, programs: Vec::new(), textures: Vec::new() }
     }
 
     /// Objects of a scene in colours and in ids.
     pub(crate) fn draw(&mut self, scene: &Scene, objects: &[Object<'_>]) -> GlPicture {
         let target = Target::new(self.gl, scene.render.size);
+        let seamless = if scene.render.seamless { glow::Context::enable } else { glow::Context::disable };
+        unsafe { seamless(self.gl, glow::TEXTURE_CUBE_MAP_SEAMLESS) };
         let camera = Camera::of(scene).unwrap();
         for object in objects {
             self.prepare(object);
@@ -76,7 +84,7 @@ impl<'a> Device<'a> {
     pub(crate) fn prepare(&mut self, object: &Object<'_>) {
         let material = object.material;
         if !self.programs.iter().any(|(shader, _)| *shader == material.shader) {
-            self.programs.push((material.shader, Programs::compile(self.gl, material.shader)));
+            self.programs.push((material.shader, Programs::compile(self.gl, material.shader, self.qualifier)));
         }
         for name in [&material.texture, &material.height_map] {
             if self.texture(name).is_none() {
@@ -96,7 +104,7 @@ impl<'a> Device<'a> {
     }
 
     /// Draws one object: `number` 0 in colours, else in ids.
-    fn draw_object(&self, object: &Object<'_>, number: u32, scene: &Scene, camera: &Camera) {
+    pub(crate) fn draw_object(&self, object: &Object<'_>, number: u32, scene: &Scene, camera: &Camera) {
         let uploaded = self.upload(object, number == 0);
         self.draw_uploaded(&uploaded, object, number, scene, camera);
         unsafe {
@@ -185,8 +193,8 @@ impl<'a> Device<'a> {
             let material = object.material;
             match name.as_str() {
                 "u_object" => unsafe { gl.uniform_1_u32(at, number) },
-                "u_texture_1" => self.bind(at, 0, glow::TEXTURE_2D, &material.texture),
-                "u_texture_2" => self.bind(at, 1, glow::TEXTURE_2D, &material.height_map),
+                "u_texture_1" => self.bind_picture(at, 0, &material.texture, object),
+                "u_texture_2" => self.bind_picture(at, 1, &material.height_map, object),
                 "u_texture_cubemap" => self.bind(at, 2, glow::TEXTURE_CUBE_MAP, &material.environment),
                 "u_texture_2_size" => {
                     let [width, height] = self.texture(&material.height_map).unwrap().1;
@@ -219,8 +227,17 @@ impl<'a> Device<'a> {
             "u_km" => float(u.u_km),
             "u_normal_scaling" => float(u.u_normal_scaling),
             "u_height_scaling" => float(u.u_height_scaling),
+            "u_bitangent" => float(u.u_bitangent),
+            "u_two_sided" => float(u.u_two_sided),
             _ => panic!("what is the uniform {name}?"),
         }
+    }
+
+    /// Binds a picture, which repeats, but on a ball only along u.
+    fn bind_picture(&self, at: Option<&glow::UniformLocation>, unit: u32, name: &str, object: &Object<'_>) {
+        self.bind(at, unit, glow::TEXTURE_2D, name);
+        let wrap = if object.is_ball { glow::CLAMP_TO_EDGE } else { glow::REPEAT };
+        unsafe { self.gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_WRAP_T, wrap as i32) };
     }
 
     fn bind(&self, at: Option<&glow::UniformLocation>, unit: u32, target: u32, name: &str) {

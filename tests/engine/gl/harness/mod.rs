@@ -16,6 +16,7 @@ pub(crate) mod lines;
 pub(crate) mod object;
 pub(crate) mod program;
 pub(crate) mod target;
+pub(crate) mod samples;
 pub(crate) mod seams;
 pub(crate) mod table;
 pub(crate) mod tally;

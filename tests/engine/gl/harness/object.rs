@@ -5,8 +5,9 @@ use drape::camera::{Camera, Columns};
 use drape::cloth::Points;
 use drape::glsl::Exponent;
 use drape::mesh::{Mesh, SpringKinds, spring_lines};
-use drape::scene::{Collider, Material, Needs, Scene, Shader, Vec3};
+use drape::scene::{Bitangent, Collider, Material, Needs, Scene, Shader, Vec3};
 use drape::shader::Uniforms;
+use drape::shader::sampler::Wrap;
 use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 
@@ -16,6 +17,8 @@ pub(crate) struct Object<'a> {
     pub(crate) lines: Option<Vec<[u32; 2]>>,
     pub(crate) model: Columns,
     pub(crate) material: &'a Material,
+    /// Whether its textures end at v = 0 and v = 1.
+    pub(crate) is_ball: bool,
 }
 
 /// The cloth, then the colliders.
@@ -24,7 +27,7 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
         let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
         let wireframe = cloth.material.shader == Shader::Wireframe;
         let lines = wireframe.then(|| spring_lines(cloth, SpringKinds::of(cloth)));
-        Object { mesh, lines, model: model(Vec3::zeros(), 1.0), material: &cloth.material }
+        Object { mesh, lines, model: model(Vec3::zeros(), 1.0), material: &cloth.material, is_ball: false }
     });
     let colliders = scene.colliders.iter().map(|collider| {
         let material = collider.material();
@@ -35,7 +38,8 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
                 (Mesh::sphere(sphere, needs), model(sphere.origin, sphere.radius * 0.92))
             }
         };
-        Object { mesh, lines: None, model, material }
+        let is_ball = matches!(collider, Collider::Sphere(_));
+        Object { mesh, lines: None, model, material, is_ball }
     });
     cloth.chain(colliders).collect()
 }
@@ -59,7 +63,14 @@ impl Object<'_> {
             u_km: material.km as f32,
             u_normal_scaling: material.normal_scaling as f32,
             u_height_scaling: material.height_scaling as f32,
+            u_bitangent: if material.bitangent == Bitangent::Uv { -1.0 } else { 1.0 },
+            u_two_sided: if material.two_sided { 1.0 } else { 0.0 },
         }
+    }
+
+    /// What lies beyond the first and last rows of its textures.
+    pub(crate) fn wrap_v(&self) -> Wrap {
+        if self.is_ball { Wrap::Clamp } else { Wrap::Repeat }
     }
 
     /// The height map, if the vertex stage reads one.

@@ -18,19 +18,29 @@ pub(crate) struct Programs {
 }
 
 impl Programs {
-    /// Compiles `src/shader/*` of a shader. Any word of the driver about it is a failure.
-    pub(crate) fn compile(gl: &glow::Context, shader: Shader) -> Self {
+    /// Compiles `src/shader/*` of a shader, with a qualifier before each varying such as `centroid`. Any word of the driver about it is a failure.
+    pub(crate) fn compile(gl: &glow::Context, shader: Shader, qualifier: &str) -> Self {
         let name = shader.name();
         let vertex = match shader {
             Shader::Displacement | Shader::Custom => format!("{name}.vert"),
             _ => "default.vert".to_owned(),
         };
         let fragment = format!("{name}.frag");
-        let vertex = (vertex.as_str(), source(&vertex));
-        let color = link(gl, &vertex, &(&fragment, source(&fragment)));
+        let [vertex_text, fragment_text] = [&vertex, &fragment].map(|name| qualified(&source(name), qualifier));
+        let vertex = (vertex.as_str(), vertex_text);
+        let color = link(gl, &vertex, &(&fragment, fragment_text));
         let id = link(gl, &vertex, &("ids", ID_FRAGMENT.to_owned()));
         Self { color, id }
     }
+}
+
+/// A text with a qualifier before each varying.
+fn qualified(text: &str, qualifier: &str) -> String {
+    let line = |line: &str| {
+        let varying = line.contains(" v_") && (line.starts_with("in ") || line.starts_with("out "));
+        if varying { format!("{qualifier} {line}\n") } else { format!("{line}\n") }
+    };
+    text.lines().map(line).collect()
 }
 
 fn source(name: &str) -> String {

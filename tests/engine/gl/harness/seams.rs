@@ -31,7 +31,7 @@ fn faces(scene: &Scene, objects: &[Object<'_>]) -> Vec<[u8; 3]> {
     let shades = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|face| [face / 6.0; 3]);
     let flat = shades.map(|shade| Texture::from_rgb(1, 1, &[shade]).unwrap());
     let cubemap = Cubemap::new("faces", flat).unwrap();
-    let cube = SamplerCube { cubemap: &cubemap, filter: scene.render.filter };
+    let cube = SamplerCube { cubemap: &cubemap, filter: scene.render.filter, seamless: false };
     let camera = Camera::of(scene).unwrap();
     let height_maps: Vec<_> = objects.iter().map(Object::height_map).collect();
     let calls = objects.iter().zip(&height_maps).map(|(object, height_map)| {
@@ -40,7 +40,7 @@ fn faces(scene: &Scene, objects: &[Object<'_>]) -> Vec<[u8; 3]> {
         [u.u_ka, u.u_kd, u.u_ks, u.u_km] = [0.0, 0.0, 0.0, 1.0];
         u.u_color = [0.0; 3];
         let height_map =
-            height_map.as_ref().map(|texture| Sampler2d { texture, filter: scene.render.filter });
+            height_map.as_ref().map(|texture| Sampler2d { texture, filter: scene.render.filter, wrap_v: object.wrap_v() });
         match (object.material.shader, height_map) {
             (Shader::Mirror, _) => {
                 call(object, mirror::vertex(&u), mirror::Fragment { u, u_texture_cubemap: cube })

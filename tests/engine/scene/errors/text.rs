@@ -12,7 +12,8 @@ fn text_that_is_not_json_is_refused_where_it_goes_wrong() {
     let cases = [
         ("", 1, 1, "the file is empty"),
         (" \n ", 1, 1, "the file is empty"),
-        ("\u{feff}{}", 1, 1, "the file starts with a byte order mark"),
+        ("\u{feff}", 1, 1, "the file is empty"),
+        ("\u{feff}{\n} x", 2, 3, "nothing may follow: a scene ends with its closing brace, and a list stands in brackets"),
         ("{\"sim\": {}", 1, 1, "this object is never closed"),
         ("{\"sim\": [1", 1, 9, "this list is never closed"),
         (
@@ -32,7 +33,7 @@ fn text_that_is_not_json_is_refused_where_it_goes_wrong() {
         ("{\"sim\": {} \"light\": {}}", 1, 11, "expected `,`"),
         ("{sim: {}}", 1, 2, "expected string for object property"),
         ("{'sim': {}}", 1, 2, "single-quoted strings are not allowed"),
-        ("{} // x", 1, 4, "comments are not allowed"),
+        ("{} // x", 1, 4, "comments are not allowed: a scene is plain JSON, as in the course's viewer"),
         ("{\"sim\": tru}", 1, 9, "this is no JSON value"),
         ("{\"sim\": .5}", 1, 9, "leading or trailing decimal points on numbers are not allowed"),
         ("{\"sim\": 5.}", 1, 9, "leading or trailing decimal points on numbers are not allowed"),

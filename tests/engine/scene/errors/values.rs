@@ -85,7 +85,6 @@ fn values_out_of_range_are_refused() {
 fn values_of_the_wrong_type_are_refused() {
     for set in [
         "cloth=5",
-        "cloth=null",
         "cloth=[]",
         "cloth.width=true",
         "cloth.width=null",

@@ -1,0 +1,146 @@
+//! The pictures of a file: one, or those of an animation in the order in which they are shown.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+
+use image::codecs::gif::GifDecoder;
+use image::codecs::jpeg::JpegDecoder;
+use image::codecs::png::PngDecoder;
+use image::metadata::LoopCount;
+use image::{AnimationDecoder, ColorType, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits};
+
+use drape::error::{Error, Kind, Result};
+use drape::output::png::Pixels;
+use drape::texture::{MAX_SIDE, orientation};
+
+/// Endings of the names of files with pictures, in lower case.
+pub(super) const ENDINGS: [&str; 5] = ["png", "apng", "gif", "jpg", "jpeg"];
+
+/// A file that is being read, picture after picture.
+pub(super) struct Reel {
+    name: String,
+    /// How often an animation is shown; 0 for ever.
+    pub(super) plays: u32,
+    pictures: Pictures,
+}
+
+enum Pictures {
+    Still(Option<Pixels>),
+    Moving(Frames<'static>),
+}
+
+/// One picture and how long it is shown, as a fraction of a millisecond count; none of a single picture.
+pub(super) struct Shown {
+    pub(super) pixels: Pixels,
+    pub(super) delay: Option<(u32, u32)>,
+}
+
+impl Reel {
+    /// Opens a PNG, an animated PNG, a GIF or a JPEG; what it is stands in its first bytes.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when it cannot be read or is none of these.
+    pub(super) fn open(path: &Path) -> Result<Self> {
+        let name = path.display().to_string();
+        let bytes = fs::read(path).map_err(|e| failed(&name, &e))?;
+        let opened = match image::guess_format(&bytes) {
+            Ok(ImageFormat::Png) => png(bytes),
+            Ok(ImageFormat::Gif) => gif(bytes),
+            Ok(ImageFormat::Jpeg) => jpeg(bytes),
+            _ => Err("it is no PNG, animated PNG, GIF or JPEG".to_owned()),
+        };
+        let (plays, pictures) = opened.map_err(|e| failed(&name, &e))?;
+        Ok(Self { name, plays, pictures })
+    }
+
+    /// Whether the file is an animation, of however many pictures.
+    pub(super) fn moves(&self) -> bool {
+        matches!(self.pictures, Pictures::Moving(_))
+    }
+
+    /// The next picture; nothing after the last.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when it cannot be decoded.
+    pub(super) fn next(&mut self) -> Result<Option<Shown>> {
+        match &mut self.pictures {
+            Pictures::Still(picture) => Ok(picture.take().map(|pixels| Shown { pixels, delay: None })),
+            Pictures::Moving(frames) => {
+                frames.next().transpose().map(|frame| frame.map(shown)).map_err(|e| failed(&self.name, &e))
+            }
+        }
+    }
+}
+
+fn shown(frame: Frame) -> Shown {
+    let delay = Some(frame.delay().numer_denom_ms());
+    Shown { pixels: pixels(DynamicImage::ImageRgba8(frame.into_buffer())), delay }
+}
+
+type Opened = std::result::Result<(u32, Pictures), String>;
+
+fn png(bytes: Vec<u8>) -> Opened {
+    if !bytes.ends_with(b"IEND\xAE\x42\x60\x82") {
+        return Err("the PNG is cut short, or has more behind its end".to_owned());
+    }
+    let kept = bytes.clone();
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits()).map_err(text)?;
+    // Cutting 16 bits down to 8 would hide differences.
+    if !matches!(decoder.color_type(), ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8) {
+        return Err("it has 16 bits a channel; only 8 are compared".to_owned());
+    }
+    if !decoder.is_apng().map_err(text)? {
+        return still(decoder, &kept);
+    }
+    let decoder = decoder.apng().map_err(text)?;
+    Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
+}
+
+fn gif(bytes: Vec<u8>) -> Opened {
+    let mut decoder = GifDecoder::new(Cursor::new(bytes)).map_err(text)?;
+    decoder.set_limits(limits()).map_err(text)?;
+    Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
+}
+
+fn jpeg(bytes: Vec<u8>) -> Opened {
+    let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(text)?;
+    decoder.set_limits(limits()).map_err(text)?;
+    still(decoder, &[])
+}
+
+/// The picture as it is shown: turned as its Exif data say.
+fn still(mut decoder: impl ImageDecoder, bytes: &[u8]) -> Opened {
+    let orientation = orientation(&mut decoder, bytes).map_err(text)?;
+    let mut decoded = DynamicImage::from_decoder(decoder).map_err(text)?;
+    decoded.apply_orientation(orientation);
+    Ok((0, Pictures::Still(Some(pixels(decoded)))))
+}
+
+fn pixels(picture: DynamicImage) -> Pixels {
+    let picture = picture.into_rgba8();
+    let rgba = picture.pixels().map(|pixel| pixel.0).collect();
+    Pixels { width: picture.width(), height: picture.height(), rgba }
+}
+
+fn plays(count: LoopCount) -> u32 {
+    match count {
+        LoopCount::Infinite => 0,
+        LoopCount::Finite(count) => count.get(),
+    }
+}
+
+fn limits() -> Limits {
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits
+}
+
+fn text(cause: image::ImageError) -> String {
+    cause.to_string()
+}
+
+fn failed(name: &str, cause: &dyn std::fmt::Display) -> Error {
+    Error::new(Kind::Io, format!("cannot read `{name}`: {cause}"))
+}

@@ -1,0 +1,169 @@
+//! `drape export`: the simulated scene as meshes.
+
+mod format;
+mod write;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::animation::pattern::Pattern;
+use crate::args::frames::Frames;
+use crate::args::scene::{Moment, SceneArgs};
+use crate::run::advance::{Until, advance_until};
+use crate::run::start::start;
+use crate::session::Session;
+use crate::session::files::outputs;
+use drape::error::{Error, Kind, Result};
+use drape::output::gltf::{Motion, Shape};
+use drape::output::part::Part;
+use drape::scene::Scene;
+use drape::simulation::Simulation;
+use drape::texture_source::TextureSource;
+use format::Format;
+use write::Writer;
+
+/// The arguments of `export`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The file to write, in the format of its ending: .obj, .ply, or .glb (binary glTF 2.0); `-` for an OBJ on standard
+    /// output. An .obj or .ply name with %d or %04d in it, such as frames/%04d.obj, means a file for each of --frames
+    #[arg(value_name = "OUT")]
+    mesh: PathBuf,
+    #[command(flatten)]
+    moment: Moment,
+    /// Export the frames from A to B, without B: a numbered file each, or in a .glb the motion as an animation
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["time", "frame", "until_rest"])]
+    frames: Option<Frames>,
+    /// Export balls, planes and everything else that is drawn, too
+    #[arg(long)]
+    objects: bool,
+    /// Write materials too: of an .obj the file OUT.mtl, and the textures beside it. A .glb always has them
+    #[arg(long)]
+    materials: bool,
+    /// Read textures from this folder instead of the built-in set
+    #[arg(long, value_name = "DIR")]
+    textures: Option<PathBuf>,
+}
+
+/// The summary.
+#[derive(Serialize)]
+struct Summary {
+    mesh: String,
+    frame: u64,
+    time: f64,
+    points: usize,
+    triangles: usize,
+    /// How many frames were exported.
+    frames: usize,
+}
+
+/// Simulates and writes the meshes.
+pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    let scene = args.scene.load(session)?;
+    if scene.cloth.is_none() && !(args.objects && !scene.colliders.is_empty()) {
+        let nothing = "the scene has no cloth, so there is no mesh to export";
+        return Err(Error::new(Kind::Nothing, nothing).with_help("--objects exports the other objects"));
+    }
+    let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
+    let (frames, until) = args.frames(&scene)?;
+    let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
+    let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
+    writer.check(&args.scene.inputs(), &scene, args.objects, &frames)?;
+    let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    let mut motion = Motion::default();
+    let ended = advance_until(&mut simulation, &scene, until, session, |simulation| {
+        match (&args.frames, format) {
+            (Some(frames), Format::Glb) => add(&mut motion, frames, simulation, &scene),
+            (Some(frames), _) if frames.0.contains(&simulation.frame()) => {
+                writer.frame(simulation.frame() - frames.0.start, &args.parts(&scene, simulation))?;
+            }
+            _ => {}
+        }
+        Ok(())
+    })?;
+    let parts = args.parts(&scene, &simulation);
+    if writer.pattern.is_none() {
+        writer.whole(args.base(parts.clone(), &motion), Some(&motion).filter(|_| args.frames.is_some()))?;
+    }
+    writer.stale(frames.end - frames.start, session);
+    args.report(&simulation, &parts, frames.end - frames.start, session)?;
+    ended.result()
+}
+
+/// Takes the cloth into `motion`, if its frame is one of those.
+fn add(motion: &mut Motion, frames: &Frames, simulation: &Simulation, scene: &Scene) {
+    let frame = simulation.frame();
+    let Some(cloth) = Part::cloth(scene, simulation.positions()).filter(|_| frames.0.contains(&frame)) else {
+        return;
+    };
+    #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "glTF has times of 32 bits")]
+    let time = ((frame - frames.0.start) as f64 / scene.sim.fps) as f32;
+    motion.times.push(time);
+    motion.frames.push(Shape { positions: cloth.positions, normals: cloth.normals });
+}
+
+impl Args {
+    /// The frames that are exported, and how far the scene is simulated.
+    fn frames(&self, scene: &Scene) -> Result<(std::ops::Range<u64>, Until)> {
+        let Some(Frames(frames)) = &self.frames else {
+            let until = self.moment.until(scene);
+            return Ok((until.frames..until.frames + 1, until));
+        };
+        Ok((frames.clone(), Until { frames: frames.end - 1, rest: false }))
+    }
+
+    /// The pattern of numbered files, which go with --frames.
+    fn pattern(&self) -> Result<Option<Pattern>> {
+        let pattern = Pattern::parse(&self.mesh);
+        let format = Format::of(&self.mesh)?;
+        let usage = |message: String, help: &str| Err(Error::new(Kind::Usage, message).with_help(help));
+        match (&pattern, &self.frames, format) {
+            (Some(_), None, _) => {
+                let message = format!("`{}` names a file for each frame", self.mesh.display());
+                usage(message, "say which with --frames A..B")
+            }
+            (Some(_), Some(_), Format::Glb) => usage(
+                "a .glb holds all frames in one file".to_owned(),
+                "leave the number out of its name, or name an .obj or .ply",
+            ),
+            (None, Some(_), Format::Obj | Format::Ply) => {
+                let message = format!("--frames: `{}` has no place for a number", self.mesh.display());
+                usage(message, "write %04d into the name, as in frames/%04d.obj, or name a .glb")
+            }
+            _ => Ok(pattern),
+        }
+    }
+
+    /// The meshes at the present state.
+    fn parts<'a>(&self, scene: &'a Scene, simulation: &Simulation) -> Vec<Part<'a>> {
+        let others = if self.objects { Part::colliders(scene) } else { Vec::new() };
+        Part::cloth(scene, simulation.positions()).into_iter().chain(others).collect()
+    }
+
+    /// The meshes with the cloth as it is in the first frame of its motion.
+    fn base<'a>(&self, mut parts: Vec<Part<'a>>, motion: &Motion) -> Vec<Part<'a>> {
+        if let (Some(cloth), Some(first)) = (parts.first_mut(), motion.frames.first()) {
+            (cloth.positions, cloth.normals) = (first.positions.clone(), first.normals.clone());
+        }
+        parts
+    }
+
+    fn report(&self, simulation: &Simulation, parts: &[Part<'_>], frames: u64, session: &Session) -> Result<()> {
+        let (frame, time) = (simulation.frame(), simulation.time());
+        let points = parts.iter().map(|part| part.positions.len()).sum();
+        let triangles = parts.iter().map(|part| part.triangles.len()).sum();
+        let mesh = self.mesh.display().to_string();
+        let several = if frames > 1 { format!("{frames} frames, the last is ") } else { String::new() };
+        let line = format!("{mesh}: {points} points, {triangles} triangles, {several}frame {frame}, {time} s");
+        let frames = usize::try_from(frames).unwrap_or(usize::MAX);
+        session.report(&Summary { mesh, frame, time, points, triangles, frames }, &line)
+    }
+}
+
+/// The files that a path stands for are made by [`Writer`]; their folder is made too.
+fn make_folder(pattern: &Pattern) -> Result<()> {
+    outputs::make_folder(pattern.folder())
+}

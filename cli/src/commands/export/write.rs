@@ -1,0 +1,140 @@
+//! Writing meshes: the files that belong to one path.
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::format::Format;
+use super::make_folder;
+use crate::animation::pattern::Pattern;
+use crate::session::Session;
+use crate::session::files::atomic;
+use crate::session::files::outputs;
+use crate::session::files::target::{Content, is_stdout};
+use drape::error::{Error, Kind, Result};
+use drape::output::gltf::{self, Motion};
+use drape::output::part::Part;
+use drape::output::png::{self, Effort};
+use drape::output::{obj, ply};
+use drape::scene::{Needs, Scene};
+use drape::texture_source::TextureSource;
+
+/// Where meshes are written to, and how.
+pub(super) struct Writer<'a> {
+    pub(super) path: &'a Path,
+    pub(super) format: Format,
+    /// The names of numbered files, if there is one for each frame.
+    pub(super) pattern: Option<Pattern>,
+    pub(super) materials: bool,
+    pub(super) source: &'a TextureSource,
+}
+
+impl Writer<'_> {
+    /// Checks, before long work, that the files can be written; reads the textures that they take.
+    pub(super) fn check(
+        &self,
+        inputs: &[PathBuf],
+        scene: &Scene,
+        objects: bool,
+        frames: &Range<u64>,
+    ) -> Result<()> {
+        if self.materials && (is_stdout(self.path) || self.format == Format::Ply) {
+            return Err(Error::new(Kind::Usage, "--materials writes files beside an .obj file")
+                .with_help("name an .obj or a .glb file, or leave out --materials"));
+        }
+        let content = if self.format == Format::Obj { Content::Text } else { Content::Binary };
+        let outputs: Vec<PathBuf> = match &self.pattern {
+            Some(pattern) if !pattern.folder().as_os_str().is_empty() && !pattern.folder().exists() => {
+                vec![pattern.folder().to_path_buf()]
+            }
+            Some(pattern) => (0..frames.end - frames.start).take(1).map(|k| pattern.path(k)).collect(),
+            None => vec![self.path.to_path_buf()],
+        };
+        let library = self.library().filter(|_| self.pattern.is_none());
+        outputs::check(inputs, outputs.iter().chain(&library).map(|path| (path.as_path(), content)))?;
+        let names = scene.materials().filter(|_| objects || scene.cloth.is_some());
+        for material in names.filter(|material| self.has_materials() && Needs::of(material.shader).texture) {
+            self.source.texture(&material.texture)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the files have materials.
+    fn has_materials(&self) -> bool {
+        self.materials || self.format == Format::Glb
+    }
+
+    /// Writes all in one file.
+    pub(super) fn whole(&self, parts: Vec<Part<'_>>, motion: Option<&Motion>) -> Result<()> {
+        match self.format {
+            Format::Glb => {
+                atomic::write(self.path, &gltf::encode(&parts, motion, |name| self.texture(name))?)
+            }
+            _ => self.write(self.path, &parts),
+        }
+    }
+
+    /// Writes numbered file `k`.
+    pub(super) fn frame(&self, k: u64, parts: &[Part<'_>]) -> Result<()> {
+        let Some(pattern) = &self.pattern else { return Ok(()) };
+        make_folder(pattern)?;
+        self.write(&pattern.path(k), parts)
+    }
+
+    fn write(&self, path: &Path, parts: &[Part<'_>]) -> Result<()> {
+        if self.format == Format::Ply {
+            return atomic::write(path, &ply::encode(parts)?);
+        }
+        let library = self.library();
+        let name = library.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
+        if let Some(library) = &library {
+            atomic::write(library, obj::materials(parts).as_bytes())?;
+            self.write_textures(library, parts)?;
+        }
+        atomic::write(path, obj::encode(parts, name.as_deref())?.as_bytes())
+    }
+
+    /// The file of the materials of an OBJ: that of all numbered files has the name of the folder.
+    fn library(&self) -> Option<PathBuf> {
+        let wanted = self.materials && self.format == Format::Obj;
+        let path = match &self.pattern {
+            Some(pattern) => pattern.folder().join("materials.mtl"),
+            None => self.path.with_extension("mtl"),
+        };
+        wanted.then_some(path)
+    }
+
+    /// Writes the textures that the materials of `parts` name beside their file.
+    fn write_textures(&self, library: &Path, parts: &[Part<'_>]) -> Result<()> {
+        for part in parts {
+            let needs = Needs::of(part.material.shader);
+            let read = [(needs.texture, &part.material.texture), (needs.height_map, &part.material.height_map)];
+            for (_, name) in read.into_iter().filter(|(reads, _)| *reads) {
+                atomic::write(&library.with_file_name(format!("{name}.png")), &self.texture(name)?)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The PNG of a texture.
+    fn texture(&self, name: &str) -> Result<Vec<u8>> {
+        let texture = self.source.texture(name)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+        let level = |c: f32| (c * 255.0).round_ties_even() as u8;
+        let rgb: Vec<u8> = texture.texels().iter().flat_map(|&[r, g, b, _]| [r, g, b].map(level)).collect();
+        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        png::encode(side(texture.width()), side(texture.height()), &rgb, Effort::Small)
+    }
+
+    /// Warns of numbered files from `count` on, which an earlier, longer run has left.
+    pub(super) fn stale(&self, count: u64, session: &Session) {
+        let Some(pattern) = &self.pattern else { return };
+        let left = pattern.files().into_iter().filter(|(number, _)| *number >= count).count();
+        if left > 0 {
+            session.ui.caution(
+                &format!("{left} numbered files from {} on are of an earlier run", pattern.path(count).display()),
+                "remove them, or programs that read all files mix both",
+            );
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Animations as Pillow and ffmpeg read them.
+
+use serde_json::Value;
+
+use super::{program, python};
+use crate::scratch::{Scratch, scene};
+
+/// A textured scene with many colours.
+const LOOK: [&str; 8] =
+    ["--time", "0.2", "--fps", "30", "--size", "160x125", "--set", "camera.polar=60"];
+
+fn animate(scratch: &Scratch, out: &str, more: &[&str]) {
+    let path = scene("sphere.json");
+    scratch.succeed(&[&["animate", &path, out][..], &LOOK, more].concat());
+}
+
+#[test]
+fn pillow_sees_every_picture_of_a_gif_and_an_apng_in_its_colours() {
+    let scratch = Scratch::new();
+    let textured = ["--shader", "texture"];
+    std::fs::create_dir(scratch.path("p")).unwrap();
+    animate(&scratch, "p/%04d.png", &textured);
+    for (out, most) in [("a.gif", 0.78), ("a.apng", 0.0)] {
+        animate(&scratch, out, &textured);
+        let Some(found) = python(&scratch, "animations", &[out, "p"]) else { return };
+        assert_eq!(found["pictures"], 6, "{out}");
+        let delays: f64 = found["delays"].as_array().unwrap().iter().filter_map(Value::as_f64).sum();
+        assert!((delays - 200.0).abs() < 6.0, "{out} lasts {delays} ms");
+        let errors: Vec<f64> = found["errors"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        println!("{out}: mean error of a channel {errors:?}");
+        assert!(errors.len() == 6 && errors.iter().all(|error| *error <= most), "{out}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_film_is_tagged_bt_709_and_shows_the_colours_of_the_pictures() {
+    let scratch = Scratch::new();
+    if program(&scratch, "ffprobe", &["-version"]).is_none() {
+        return;
+    }
+    // Odd sides; a scene of one colour and its background.
+    let red = ["--size", "161x125", "--shader", "wireframe", "--set", "material.color=[1,0,0]", "--set", "render.background=[0,0.5,0.25]"];
+    animate(&scratch, "a.mp4", &red);
+    let entries = "stream=width,height,color_space,color_primaries,color_transfer,color_range,pix_fmt,nb_frames";
+    let probe = ["-v", "error", "-select_streams", "v", "-show_entries", entries, "-of", "json", "a.mp4"];
+    let stream: Value = serde_json::from_slice(&program(&scratch, "ffprobe", &probe).unwrap()).unwrap();
+    let stream = &stream["streams"][0];
+    for (key, value) in [
+        ("color_space", "bt709"),
+        ("color_primaries", "bt709"),
+        ("color_transfer", "bt709"),
+        ("color_range", "tv"),
+        ("pix_fmt", "yuv420p"),
+        ("nb_frames", "6"),
+    ] {
+        assert_eq!(stream[key], value, "{key}");
+    }
+    assert_eq!((&stream["width"], &stream["height"]), (&162.into(), &126.into()));
+    let bytes = scratch.read("a.mp4");
+    let place = |name: &[u8]| bytes.windows(4).position(|window| window == name).unwrap();
+    assert!(place(b"moov") < place(b"mdat"), "a player can start before it has the whole file");
+    let raw = ["-v", "error", "-i", "a.mp4", "-frames:v", "1", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"];
+    let rgb = program(&scratch, "ffmpeg", &raw).unwrap();
+    let pixel = |x: usize, y: usize| <[u8; 3]>::try_from(&rgb[3 * (162 * y + x)..][..3]).unwrap();
+    let near = |found: [u8; 3], expected: [u8; 3]| (0..3).all(|c| found[c].abs_diff(expected[c]) <= 6);
+    // The added column and row have the background's colour, and the ball's red is that red.
+    for [x, y] in [[0, 0], [161, 60], [80, 125], [161, 125]] {
+        assert!(near(pixel(x, y), [0, 128, 64]), "{x}, {y}: {:?}", pixel(x, y));
+    }
+    let reds = (0..126).flat_map(|y| (0..162).map(move |x| [x, y])).filter(|&[x, y]| near(pixel(x, y), [255, 0, 0]));
+    assert!(reds.count() > 200, "the ball is red");
+}
