@@ -108,7 +108,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Phase 1: The force on every point: its weight, and Hooke's law for each spring.
-    fn forces(&self) -> Vec<Vector> {
+    pub fn forces(&self) -> Vec<Vector> {
         let gravity = self.scene.sim.gravity;
         let weight = scale([gravity.x, gravity.y, gravity.z], self.mass);
         let mut forces = vec![weight; self.x.len()];
@@ -125,7 +125,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Phase 2: Verlet's scheme: each point repeats most of its last displacement, and the force adds to it.
-    fn integrate(&mut self, forces: &[Vector]) {
+    pub fn integrate(&mut self, forces: &[Vector]) {
         let dt2_over_m = self.dt * self.dt / self.mass;
         for p in (0..self.x.len()).filter(|&p| !self.pinned[p]) {
             let repeated = scale(sub(self.x[p], self.last[p]), self.velocity_retention);
@@ -137,7 +137,7 @@ impl<'a> Cloth<'a> {
 
     /// Phase 3: Space is divided into boxes. Each point moves away from those in its box that are closer than twice the
     /// thickness, by the mean of what separates them, spread over the steps of a frame.
-    fn collide_with_itself(&mut self) {
+    pub fn collide_with_itself(&mut self) {
         let cloth = self.scene.cloth.as_ref().unwrap();
         let distance = 2.0 * cloth.thickness;
         let steps_per_frame = f64::from(self.scene.sim.steps_per_frame);
@@ -168,7 +168,7 @@ impl<'a> Cloth<'a> {
 
     /// Phase 4: Points that went through a plane or into a sphere are put back on its surface, and friction takes a
     /// part of the way from where they were to there.
-    fn collide_with_objects(&mut self) {
+    pub fn collide_with_objects(&mut self) {
         let scene = self.scene;
         for p in 0..self.x.len() {
             if !self.pinned[p] {
@@ -204,7 +204,7 @@ impl<'a> Cloth<'a> {
 
     /// Phase 5: Springs that are longer than 1.1 times their rest length are shortened to that, one after the other, by moving
     /// both ends, or the one that is not pinned.
-    fn limit_stretch(&mut self) {
+    pub fn limit_stretch(&mut self) {
         let Some(limit) = self.scene.sim.stretch_limit else { return };
         for _ in 0..self.scene.sim.stretch_passes {
             for &Spring { a, b, rest, .. } in &self.springs {

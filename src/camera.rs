@@ -6,7 +6,7 @@ use crate::{
     cloth::grid::{Grid, start_of},
     error::{Error, Kind, Result},
     math::{sin_cos_degrees, tan},
-    scene::{self, Camera as Settings, Cloth, Scene, Vec3},
+    scene::{Camera as Settings, Cloth, Scene, Vec3},
 };
 
 /// A scene without a cloth is seen as if the stock cloth (1 m × 1 m, at y = 1) were there.
@@ -32,7 +32,7 @@ impl Camera {
     pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
         let target = target(scene)?;
-        let distance = scene::distance(settings, scene.cloth.as_ref());
+        let distance = scene.camera_distance();
         let (direction, up) = orbit(settings);
         let eye = target + direction * distance;
         if eye == target {
@@ -100,7 +100,7 @@ const FAR_AWAY: f64 = 256.0;
 /// A cloth that does not fit in memory.
 pub fn origin(scene: &Scene) -> Result<Vec3> {
     let target = target(scene)?;
-    let distance = scene::distance(&scene.camera, scene.cloth.as_ref());
+    let distance = scene.camera_distance();
     let away = target.iter().map(|c| c.abs()).fold(0.0, f64::max);
     Ok(if away > FAR_AWAY * distance { target } else { Vec3::zeros() })
 }

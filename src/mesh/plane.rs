@@ -1,14 +1,17 @@
 //! The mesh of a plane: a square.
 //!
-//! Its picture is 4 m wide, lies in its middle and repeats. Seen from the side of the normal, words on it are
-//! readable, and upright for a camera of azimuth 0: up is -z on a floor, +z on a ceiling, and +y on a wall (any
-//! plane steeper than 45 degrees).
+//! Its picture lies in its middle, as wide and high as the square's diagonal, so that it does not repeat. Seen from
+//! the side of the normal, words on it are readable, and upright for a camera of azimuth 0: up is -z on a floor, +z
+//! on a ceiling, and +y on a wall (any plane steeper than 45 degrees).
 
 use super::{Mesh, in_plane, round, to_f32, unit};
 use crate::scene::{Needs, Plane, Vec3};
 
-/// Length of the sides, and of those of the picture, in metres.
+/// Length of the sides, in metres.
 const SIDE: f64 = 4.0;
+
+/// Length of the sides of the picture.
+const PICTURE: f64 = SIDE * std::f64::consts::SQRT_2;
 
 /// The direction in a plane of unit normal `n` that is up in its picture, unit.
 fn upwards(n: &Vec3) -> Vec3 {
@@ -26,7 +29,7 @@ impl Mesh {
         let sides = [c + p, c - p, -c + p, -c - p].map(|side| side * SIDE / 2.0);
         let up = upwards(&n);
         let right = up.cross(&n);
-        let uv = |side: Vec3| [0.5 + side.dot(&right) / SIDE, 0.5 - side.dot(&up) / SIDE].map(to_f32);
+        let uv = |side: Vec3| [0.5 + side.dot(&right) / PICTURE, 0.5 - side.dot(&up) / PICTURE].map(to_f32);
         let per_corner = |read: bool, value: Vec3| if read { vec![round(value); 4] } else { Vec::new() };
         Self {
             positions: sides.map(|side| round(plane.point + side)).to_vec(),

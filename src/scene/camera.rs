@@ -1,6 +1,5 @@
 //! Where the picture is taken from.
 
-use super::Cloth;
 use super::json::keys::keys;
 use super::json::list::{OrNull, Vector};
 use super::json::object::defaults;
@@ -40,11 +39,6 @@ keys! {
         /// Distance of the far plane: what is farther from the camera is not drawn. It must be above `near`.
         far: f64 => [10_000.0] POSITIVE.unit("m"), local;
     }
-}
-
-/// How far a camera is from its target, in metres.
-pub(crate) fn distance(camera: &Camera, cloth: Option<&Cloth>) -> f64 {
-    camera.distance.unwrap_or_else(|| 1.8 * cloth.map_or(1.0, |cloth| cloth.width.max(cloth.height)))
 }
 
 impl Default for Camera {

@@ -30,7 +30,6 @@ use json::object::{Object, defaults};
 
 pub use crate::math::Vec3;
 pub use camera::Camera;
-pub(crate) use camera::distance;
 pub use cloth::{Cloth, MAX_POINTS, Orientation};
 pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Sphere};
 pub use json::key::{Key, Shape};
@@ -88,6 +87,12 @@ impl Scene {
         at.group(MATERIAL, Material::read);
         let render = at.group(RENDER, Render::read).unwrap_or_default();
         Self { cloth, colliders, sim, camera, light, render }
+    }
+
+    /// How far the camera is from its target, in metres: 1.8 times the longer side of the cloth if that is not given.
+    pub fn camera_distance(&self) -> f64 {
+        let side = |cloth: &Cloth| cloth.width.max(cloth.height);
+        self.camera.distance.unwrap_or_else(|| 1.8 * self.cloth.as_ref().map_or(1.0, side))
     }
 
     /// The planes, in file order.

@@ -33,7 +33,9 @@ shaders! {
     /// Matt, in the light (Lambert's law). Reads `color` and `kd`.
     Diffuse = "diffuse" reads [normal];
     /// Matt with a highlight and some light everywhere (Blinn-Phong). Reads `color`, `ka`, `kd`, `ks` and
-    /// `shininess`.
+    /// `shininess`. As in the course, the highlight also reaches what faces away from the light, and only the side of
+    /// the normal is lit: from below, the underside is as bright as the top, and the stock `selfCollision` shows its
+    /// unlit side (`two_sided` lights both).
     Phong = "phong" reads [normal];
     /// The texture alone, without light. Reads `texture`.
     Texture = "texture" reads [uv, texture];

@@ -8,7 +8,6 @@ use super::json::finding::Finding;
 use super::json::node::Node;
 use super::json::span::Span;
 use super::json::text::enumerated;
-use super::camera;
 use super::without_effect;
 use super::{
     Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Material, Precision, Scene, SelfCollision, Start,
@@ -191,7 +190,7 @@ impl Checks<'_> {
         if camera.fit || !self.clean(&["camera", "cloth"]) {
             return;
         }
-        let distance = camera::distance(camera, self.scene.cloth.as_ref());
+        let distance = self.scene.camera_distance();
         let step = distance * distance * DEPTH_STEP / camera.near;
         let (key, message, fits) = if camera.near >= distance {
             let message = format!("the target, {distance} m away, lies before the near plane at {} m", camera.near);

@@ -286,7 +286,9 @@ fn without_ffmpeg_the_exit_code_is_6_and_the_line_to_run_is_told() {
     assert_eq!(run.code, Some(6), "{}", run.stderr);
     assert!(run.stderr.contains("animate to a/%04d.png"), "{}", run.stderr);
     let line = run.stderr.lines().find(|line| line.trim().starts_with("ffmpeg ")).expect("a line to run");
-    let expected = "ffmpeg -framerate 30 -i a/%04d.png -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -c:v libx264 -pix_fmt yuv420p a.mp4";
+    let expected = "ffmpeg -framerate 30 -i a/%04d.png -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x404040,\
+        scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p' -c:v libx264 -pix_fmt \
+        yuv420p -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv -movflags +faststart a.mp4";
     assert_eq!(line.trim(), expected);
     assert_eq!(scratch.names(), ["empty", "small.json"]);
     // The line is one that a shell can read.
@@ -297,7 +299,7 @@ fn without_ffmpeg_the_exit_code_is_6_and_the_line_to_run_is_told() {
     assert!(shell.status().unwrap().success());
     let mut words = String::new();
     File::open(scratch.path("a.mp4")).unwrap().read_to_string(&mut words).unwrap();
-    assert!(words.lines().any(|word| word == "pad=ceil(iw/2)*2:ceil(ih/2)*2"), "{words}");
+    assert!(words.lines().any(|word| word.starts_with("pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x404040,scale=")), "{words}");
 }
 
 #[cfg(unix)]
@@ -333,4 +335,27 @@ fn a_signal_keeps_finished_pictures_and_no_other_file() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         assert_eq!(read_png(&scratch, &format!("f/{name}")).len(), 64 * 64 * 3, "{name}");
     }
+}
+
+/// A shorter run over a longer one leaves none of the old pictures, and touches nothing that is not of this program.
+#[test]
+fn pictures_of_a_longer_run_are_removed() {
+    let scratch = Scratch::new();
+    let run = |frames: &str| {
+        let all = ["animate", "small.json", "p/%04d.png", "--fps", "30", "--size", "32x24", "--frames", frames];
+        let run = scratch.run(&all);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    run("0..24");
+    std::fs::write(scratch.path("p/0007.png"), b"of another program").unwrap();
+    std::fs::write(scratch.path("p/notes.txt"), b"kept").unwrap();
+    let said = run("0..9");
+    let mut names: Vec<String> = std::fs::read_dir(scratch.path("p"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["0000.png", "0001.png", "0002.png", "0007.png", "notes.txt"]);
+    assert!(said.contains("1 files from `p/0007.png` on"), "{said}");
 }

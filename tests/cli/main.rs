@@ -35,3 +35,4 @@ mod simulating;
 mod textbook_cloth;
 mod texts;
 mod threads;
+mod without_effect;

@@ -6,7 +6,7 @@ use std::fs;
 use drape::scene::{Overrides, Scene, load_text};
 use serde_json::Value;
 
-use crate::mistakes::{self, Mistakes};
+use crate::mistakes::{self, Fault, Mistakes};
 use crate::scratch::Scratch;
 
 /// A hanging cloth.
@@ -74,6 +74,98 @@ fn mistakes_that_can_be_run_are_named() {
             "{name}: {verdict}"
         );
     }
+}
+
+/// The positions of frames 0 up to, without, `frames`, by a program with a fault in one phase.
+fn faulty(text: &str, fault: Fault, frames: usize) -> Vec<f64> {
+    let scene = scene(text);
+    let (mut cloth, mut kept) = (mistakes::cloth(&scene, Mistakes::default()), Vec::new());
+    let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
+    for _ in 1..frames {
+        (0..scene.sim.steps_per_frame).for_each(|_| mistakes::faulty_step(&scene, &mut cloth, fault, &mut kept));
+        numbers.extend(cloth.x.as_flattened());
+    }
+    numbers
+}
+
+#[test]
+fn mistakes_that_no_scene_can_express_are_named() {
+    let thick = HANGING.replace("0.0095", "0.055");
+    for (text, fault, name) in [
+        (HANGING, Fault::KeptForces, "forces that are not set to 0"),
+        (&thick, Fault::PushBoth, "pushes both points of each pair by the whole distance"),
+        (&thick, Fault::WholePush, "not divided by the steps of a frame"),
+        (HANGING, Fault::UnnormalisedLimit, "a stretch limit along the vector"),
+    ] {
+        let report = compared(text, raw(&faulty(text, fault, 8)), &[], 1);
+        let verdict = report["verdict"].as_str().expect("a verdict");
+        assert!(verdict.starts_with("this behaves like the mistake") && verdict.contains(name), "{fault:?}: {report}");
+    }
+}
+
+#[test]
+fn a_wrong_part_of_the_bending_springs_and_wide_cells_are_found() {
+    let scene = scene(HANGING);
+    let mut cloth = mistakes::cloth(&scene, Mistakes::default());
+    cloth.springs.iter_mut().filter(|spring| spring.stiffness < 2000.0).for_each(|spring| spring.stiffness = 2500.0);
+    let run = |cloth: &mut crate::textbook_cloth::Cloth<'_>, frames: usize| {
+        let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
+        for _ in 1..frames {
+            (0..30).for_each(|_| cloth.step());
+            numbers.extend(cloth.x.as_flattened());
+        }
+        raw(&numbers)
+    };
+    let verdict = compared(HANGING, run(&mut cloth, 8), &[], 1)["verdict"].to_string();
+    assert!(verdict.contains("bending springs with a part of ks of 0.5 instead of 0.2"), "{verdict}");
+    let thick = HANGING.replace("0.0095", "0.055");
+    let scene = self::scene(&thick);
+    let mut cloth = mistakes::cloth(&scene, Mistakes::default());
+    cloth.box_of = |[x, y, z]| [(x * 10.0 / 11.0).floor() as i64, (y * 8.0 / 9.0).floor() as i64, (z * 8.0 / 9.0).floor() as i64];
+    let verdict = compared(&thick, run(&mut cloth, 8), &[], 1)["verdict"].to_string();
+    assert!(verdict.contains("cells of 3 width / (W - 1)"), "{verdict}");
+}
+
+/// Programs that print six digits, as C++ does by default, or three decimals, or that write f32.
+#[test]
+fn rounding_to_few_digits_is_told_from_mistakes() {
+    let right = positions(HANGING, Mistakes::default(), 10);
+    let wrong = positions(HANGING, Mistakes { stiff_bending: true, ..Mistakes::default() }, 10);
+    let text = |numbers: &[f64], write: &dyn Fn(f64) -> String| {
+        numbers.iter().map(|&number| write(number) + " ").collect::<String>().into_bytes()
+    };
+    let six = |x: f64| format!("{x:.5e}");
+    let three = |x: f64| format!("{x:.3}");
+    let single = |x: f64| (x as f32).to_string();
+    let writers: [(&dyn Fn(f64) -> String, &str); 3] = [(&six, "6 digits"), (&three, "3 decimals"), (&single, "32 bits")];
+    for (write, digits) in writers {
+        let verdict = |numbers: &[f64]| compared(HANGING, text(numbers, write), &[], 1)["verdict"].to_string();
+        let found = verdict(&right);
+        assert!(found.contains("every difference is rounding") && found.contains(digits), "{digits}: {found}");
+        let found = verdict(&wrong);
+        assert!(found.contains("bending springs as stiff"), "{digits}: {found}");
+    }
+}
+
+/// Where rounding has grown larger than what a mistake does, the verdict says so, and from when on.
+#[test]
+fn what_chaos_hides_is_said_to_be_hidden() {
+    let text = fs::read_to_string(crate::scratch::scene("selfCollision.json")).expect("a scene");
+    let small = ["cloth.num_width_points=14", "cloth.num_height_points=14", "cloth.thickness=0.03"];
+    let loaded = load_text("x.json", &text, &Overrides { sets: small.map(String::from).to_vec(), ..Overrides::default() });
+    let scene = loaded.expect("a scene").scene;
+    let mut cloth = mistakes::cloth(&scene, Mistakes::default());
+    // Another last bit, as sums in another order have.
+    let start = cloth.x.iter().map(|&[x, y, z]| [x * (1.0 + f64::EPSILON), y, z]).collect();
+    mistakes::start_at(&mut cloth, start);
+    let mut numbers: Vec<f64> = cloth.x.as_flattened().to_vec();
+    for _ in 1..150 {
+        (0..scene.sim.steps_per_frame).for_each(|_| cloth.step());
+        numbers.extend(cloth.x.as_flattened());
+    }
+    let sets = small.map(|set| ["--set", set]).concat();
+    let verdict = compared(&text, raw(&numbers), &sets, 1)["verdict"].to_string();
+    assert!(verdict.contains("operations in another order") && verdict.contains("nothing can be told"), "{verdict}");
 }
 
 /// A program that reads another number than the scene's: its value is found, to the digits it was given in.

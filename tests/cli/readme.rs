@@ -14,7 +14,8 @@ fn repository() -> PathBuf {
 }
 
 /// The pages whose commands are run here, each with the number of its `sh` lines: a page that loses one fails.
-const PAGES: [(&str, usize); 3] = [("README.md", 14), ("docs/commands.md", 16), ("docs/gallery.md", 21)];
+const PAGES: [(&str, usize); 4] =
+    [("README.md", 14), ("docs/commands.md", 18), ("docs/gallery.md", 21), ("docs/recipes.md", 6)];
 
 /// Pages with commands that other tests run or that only print times: `docs.rs`, `findings.rs` and `restless.rs` hold
 /// their figures.
@@ -25,7 +26,7 @@ fn text(page: &str) -> String {
 }
 
 /// The lines of all fenced blocks of a language in a page.
-fn lines_of(page: &str, language: &str) -> Vec<String> {
+pub(crate) fn lines_of(page: &str, language: &str) -> Vec<String> {
     let (text, fence) = (text(page), format!("```{language}\n"));
     let blocks = text.split(&fence).skip(1);
     let lines = blocks.flat_map(|block| block.split("```").next().unwrap_or_default().lines());
@@ -41,7 +42,7 @@ fn pages() -> Vec<String> {
 }
 
 /// A folder with `drape` on the path and the repository's scenes in it.
-fn folder() -> tempfile::TempDir {
+pub(crate) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     symlink(repository().join("scenes"), folder.path().join("scenes")).expect("a link to the scenes");
     fs::create_dir(folder.path().join("bin")).expect("a folder");
@@ -49,7 +50,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn shell(line: &str, folder: &Path) -> Output {
+pub(crate) fn shell(line: &str, folder: &Path) -> Output {
     let path = std::env::var("PATH").expect("a path");
     Command::new("bash")
         .args(["-euo", "pipefail", "-c", line])
@@ -63,7 +64,7 @@ fn shell(line: &str, folder: &Path) -> Output {
 fn outputs(line: &str) -> Vec<&str> {
     let code = line.split('#').next().unwrap_or_default();
     let words = code.split_whitespace().filter(|word| !word.contains(['/', '$']));
-    words.filter(|word| [".png", ".apng", ".obj"].iter().any(|ending| word.ends_with(ending))).collect()
+    words.filter(|word| [".png", ".apng", ".obj", ".ply", ".glb", ".gif"].iter().any(|ending| word.ends_with(ending))).collect()
 }
 
 /// What a command left in the folder; folders end in `/`.

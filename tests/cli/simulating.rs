@@ -44,7 +44,7 @@ fn export_is_the_simulated_mesh() {
     let bytes: Vec<u8> = rows("v ").concat().into_iter().flat_map(f64::to_le_bytes).collect();
     assert_eq!(bytes, scratch.read("p"), "the positions to the last bit");
     assert_eq!((rows("vt ").len(), rows("vn ").len()), (25, 25));
-    assert_eq!((rows("vt ")[0].clone(), rows("vt ")[24].clone()), (vec![0.0, 0.0], vec![1.0, 1.0]));
+    assert_eq!((rows("vt ")[0].clone(), rows("vt ")[24].clone()), (vec![0.0, 1.0], vec![1.0, 0.0]));
     for normal in rows("vn ") {
         assert!((normal.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-6, "{normal:?}");
     }
@@ -71,6 +71,31 @@ fn export_tells_programs_what_it_wrote() {
         (&summary["frame"], &summary["points"], &summary["triangles"]),
         (&3.into(), &25.into(), &32.into())
     );
+}
+
+#[test]
+fn numbered_meshes_are_a_file_for_each_frame() {
+    let scratch = Scratch::new();
+    for ending in ["obj", "ply"] {
+        let pattern = format!("m/%03d.{ending}");
+        let out = scratch.json(&["export", "small.json", &pattern, "--frames", "4..7", "--json"]);
+        assert_eq!((&out["frames"], &out["frame"]), (&3.into(), &6.into()));
+        scratch.succeed(&["export", "small.json", &format!("one.{ending}"), "--frame", "5"]);
+        assert_eq!(scratch.read(&format!("m/001.{ending}")), scratch.read(&format!("one.{ending}")));
+        let again = scratch.run(&["export", "small.json", &pattern, "--frames", "4..6"]);
+        assert!(again.stderr.contains("1 numbered files from"), "{}", again.stderr);
+    }
+    for (arguments, part) in [
+        (&["m/%03d.obj"][..], "--frames"),
+        (&["one.obj", "--frames", "0..3"], "%04d"),
+        (&["m/%03d.glb", "--frames", "0..3"], "one file"),
+        (&["one.stl"], ".obj, .ply or .glb"),
+        (&["one.ply", "--materials"], "--materials"),
+    ] {
+        let run = scratch.run(&[&["export", "small.json"], arguments].concat());
+        assert_eq!(run.code, Some(2), "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments:?}: {}", run.stderr);
+    }
 }
 
 /// An integrator without a largest step says so, is not refused, and is stopped when it gains energy.

@@ -76,6 +76,89 @@ pub(crate) fn cloth(scene: &Scene, mistakes: Mistakes) -> Cloth<'_> {
     cloth
 }
 
+/// A phase that is done differently from the method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Fault {
+    /// The forces of earlier steps stay.
+    KeptForces,
+    /// Both points of a pair that is too close are pushed, one after the other pair.
+    PushBoth,
+    /// A point is pushed by the whole mean, not by that over the steps of a frame.
+    WholePush,
+    /// The stretch limit multiplies the excess by the vector between the points, not by its direction.
+    UnnormalisedLimit,
+}
+
+/// One step of `cloth` with a fault; `kept` are the forces of earlier steps.
+pub(crate) fn faulty_step(scene: &Scene, cloth: &mut Cloth<'_>, fault: Fault, kept: &mut Vec<Vector>) {
+    let mut forces = cloth.forces();
+    if matches!(fault, Fault::KeptForces) {
+        kept.resize(forces.len(), [0.0; 3]);
+        for (force, kept) in forces.iter_mut().zip(kept.iter_mut()) {
+            *force = [0, 1, 2].map(|c| force[c] + kept[c]);
+            *kept = *force;
+        }
+    }
+    cloth.integrate(&forces);
+    match fault {
+        Fault::PushBoth | Fault::WholePush => push(scene, cloth, matches!(fault, Fault::PushBoth)),
+        _ => cloth.collide_with_itself(),
+    }
+    cloth.collide_with_objects();
+    match fault {
+        Fault::UnnormalisedLimit => limit(cloth),
+        _ => cloth.limit_stretch(),
+    }
+}
+
+fn push(scene: &Scene, cloth: &mut Cloth<'_>, both: bool) {
+    let settings = scene.cloth.as_ref().expect("a cloth");
+    let spread = if both { f64::from(scene.sim.steps_per_frame) } else { 1.0 };
+    let size = |length: f64, points: usize| 3.0 * length / points as f64;
+    let sizes = [size(settings.width, settings.num_width_points), size(settings.height, settings.num_height_points)];
+    let sizes = [sizes[0], sizes[1], sizes[0].max(sizes[1])];
+    let boxes: Vec<[i64; 3]> = cloth.x.iter().map(|x| [0, 1, 2].map(|c| (x[c] / sizes[c]).floor() as i64)).collect();
+    for p in (0..cloth.x.len()).filter(|&p| !cloth.pinned[p]).collect::<Vec<_>>() {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for other in (0..cloth.x.len()).filter(|&other| other != p && boxes[other] == boxes[p]) {
+            let l = length(cloth.x[p], cloth.x[other]);
+            if !(0.0 < l && l < 2.0 * settings.thickness) {
+                continue;
+            }
+            let part = (2.0 * settings.thickness - l) / l;
+            let away = [0, 1, 2].map(|c| (cloth.x[p][c] - cloth.x[other][c]) * part);
+            if both {
+                cloth.x[p] = [0, 1, 2].map(|c| cloth.x[p][c] + away[c] / spread);
+                if !cloth.pinned[other] {
+                    cloth.x[other] = [0, 1, 2].map(|c| cloth.x[other][c] - away[c] / spread);
+                }
+            }
+            sum = [0, 1, 2].map(|c| sum[c] + away[c]);
+            count += 1.0;
+        }
+        if count > 0.0 && !both {
+            cloth.x[p] = [0, 1, 2].map(|c| cloth.x[p][c] + sum[c] / count / spread);
+        }
+    }
+}
+
+fn limit(cloth: &mut Cloth<'_>) {
+    for i in 0..cloth.springs.len() {
+        let (a, b, longest) = (cloth.springs[i].a, cloth.springs[i].b, 1.1 * cloth.springs[i].rest);
+        let l = length(cloth.x[a], cloth.x[b]);
+        if l > longest {
+            let excess = [0, 1, 2].map(|c| (cloth.x[b][c] - cloth.x[a][c]) * (l - longest));
+            let part = if cloth.pinned[a] || cloth.pinned[b] { 1.0 } else { 0.5 };
+            if !cloth.pinned[a] {
+                cloth.x[a] = [0, 1, 2].map(|c| cloth.x[a][c] + part * excess[c]);
+            }
+            if !cloth.pinned[b] {
+                cloth.x[b] = [0, 1, 2].map(|c| cloth.x[b][c] - part * excess[c]);
+            }
+        }
+    }
+}
+
 /// Puts the points of `cloth` at `x`, where the springs are at rest.
 pub(crate) fn start_at(cloth: &mut Cloth<'_>, x: Vec<Vector>) {
     for spring in &mut cloth.springs {

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
+use super::unlit;
 use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
@@ -31,6 +32,10 @@ struct Info {
     colliders: PerKind<usize>,
     memory: Memory,
     needs: Vec<Item>,
+    /// The part of what is seen at the start that only ambient light reaches, from 0 to 1; nothing where no lit object
+    /// is seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unlit: Option<f64>,
 }
 
 /// The size of the cloth, and its step.
@@ -96,6 +101,7 @@ impl Info {
             colliders: scene.collider_counts(),
             memory: Memory::of(scene),
             needs: plan(scene),
+            unlit: unlit::part(scene)?,
         })
     }
 
@@ -116,7 +122,19 @@ impl Info {
             colliders.join(", "),
             self.memory.cloth,
             self.memory.picture,
-        )
+        ) + &self.hint()
+    }
+
+    /// What to do where most of what is seen is unlit.
+    fn hint(&self) -> String {
+        match self.unlit {
+            Some(part) if part > 0.5 => format!(
+                "\nhint        {:.0} % of what is seen at the start faces away from the light: material.two_sided=true lights \
+                 both sides, or move light.position\n",
+                100.0 * part
+            ),
+            _ => String::new(),
+        }
     }
 }
 

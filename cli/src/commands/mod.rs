@@ -6,6 +6,7 @@ pub(crate) mod compare;
 pub(crate) mod compare_positions;
 pub(crate) mod export;
 pub(crate) mod gallery;
+pub(crate) mod unlit;
 pub(crate) mod info;
 pub(crate) mod meta;
 pub(crate) mod render;

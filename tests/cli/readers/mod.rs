@@ -7,6 +7,7 @@
 mod animations;
 mod meshes;
 mod pictures;
+mod recipes;
 
 use std::path::PathBuf;
 use std::process::Command;

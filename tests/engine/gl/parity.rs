@@ -169,6 +169,12 @@ fn compare_samples(context: &Context, states: &[(&str, [Points; 3])]) -> [usize;
             let apart = differences(&own.rgb, &gl);
             counts[column] += apart.iter().filter(|&&levels| levels > 2).count();
             counts[2] += if column == 0 { apart.len() } else { 0 };
+            let mut h = [0; 8];
+            for &d in &apart { h[usize::from(d.min(255)).next_power_of_two().trailing_zeros().min(7) as usize] += 1; }
+            println!("{qualifier} {name} {shader} {h:?}");
+            for (i, _) in apart.iter().enumerate().filter(|(_, d)| **d > 2).take(6) {
+                println!("  {} {}: {:?} {:?}", i % 320, i / 320, &own.rgb[3*i..3*i+3], &gl[3*i..3*i+3]);
+            }
         }
     }
     counts

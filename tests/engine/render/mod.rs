@@ -3,3 +3,4 @@
 mod camera;
 mod mesh;
 mod renderer;
+mod range;

@@ -5,3 +5,4 @@ mod robust;
 mod page;
 mod schema;
 mod values;
+mod without_effect;

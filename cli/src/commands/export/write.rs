@@ -1,6 +1,5 @@
 //! Writing meshes: the files that belong to one path.
 
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
