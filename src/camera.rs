@@ -6,7 +6,7 @@ use crate::{
     cloth::grid::{Grid, start_of},
     error::{Error, Kind, Result},
     math::{sin_cos_degrees, tan},
-    scene::{Camera as Settings, Cloth, Scene, Vec3},
+    scene::{Camera as Settings, Cloth, Collider, Scene, Vec3},
 };
 
 /// A scene without a cloth is seen as if the stock cloth (1 m × 1 m, at y = 1) were there.
@@ -67,8 +67,10 @@ impl Camera {
         };
         let (right, by_width) = along(x, vertical * width / height);
         let (above, by_height) = along(y, vertical);
-        let (front, back) = (largest(&|point| point.dot(&direction)), -largest(&|point| -point.dot(&direction)));
-        let from = front + (by_width.max(by_height) - front).max((front - back) * 1e-3).max(1e-9) * FIT_MARGIN;
+        let (front, back) =
+            (largest(&|point| point.dot(&direction)), -largest(&|point| -point.dot(&direction)));
+        let from =
+            front + (by_width.max(by_height) - front).max((front - back) * 1e-3).max(1e-9) * FIT_MARGIN;
         // The target lies in the middle of what is seen, in depth too.
         let middle = (front + back) / 2.0;
         scene.camera.target = Some(x * right + y * above + direction * middle);
@@ -99,8 +101,14 @@ const FAR_AWAY: f64 = 256.0;
 /// # Errors
 /// A cloth that does not fit in memory.
 pub fn origin(scene: &Scene) -> Result<Vec3> {
-    let target = target(scene)?;
-    let distance = scene.camera_distance();
+    let (target, distance) = match scene.colliders.first() {
+        // A camera that fits goes where things are.
+        Some(Collider::Sphere(sphere)) if scene.camera.fit && scene.cloth.is_none() => {
+            (sphere.origin, sphere.radius)
+        }
+        Some(Collider::Plane(plane)) if scene.camera.fit && scene.cloth.is_none() => (plane.point, 1.0),
+        _ => (target(scene)?, scene.camera_distance()),
+    };
     let away = target.iter().map(|c| c.abs()).fold(0.0, f64::max);
     Ok(if away > FAR_AWAY * distance { target } else { Vec3::zeros() })
 }

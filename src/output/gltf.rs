@@ -107,7 +107,8 @@ impl File {
             let [r, g, b] = [0, 1, 2].map(|i| (color[i] * kd).clamp(0.0, 1.0));
             surface["baseColorFactor"] = json!([r, g, b, 1.0]);
         }
-        self.materials.push(json!({ "name": part.name, "pbrMetallicRoughness": surface, "doubleSided": true }));
+        self.materials
+            .push(json!({ "name": part.name, "pbrMetallicRoughness": surface, "doubleSided": true }));
         Ok(self.materials.len() - 1)
     }
 
@@ -117,7 +118,8 @@ impl File {
             return Ok(known);
         }
         let view = self.view(texture(name)?, None);
-        self.images.push((name.to_owned(), json!({ "name": name, "mimeType": "image/png", "bufferView": view })));
+        self.images
+            .push((name.to_owned(), json!({ "name": name, "mimeType": "image/png", "bufferView": view })));
         Ok(self.images.len() - 1)
     }
 
@@ -210,7 +212,8 @@ impl File {
         let mut text = document.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let size = |bytes: usize| {
-            u32::try_from(bytes).map_err(|_| Error::new(Kind::Usage, "a .glb file holds at most 4 GiB: export fewer frames"))
+            u32::try_from(bytes)
+                .map_err(|_| Error::new(Kind::Usage, "a .glb file holds at most 4 GiB: export fewer frames"))
         };
         let mut file = b"glTF".to_vec();
         let total = 12 + 8 + text.len() + 8 + self.bytes.len();

@@ -52,8 +52,10 @@ fn material(material: &Material) -> String {
     let needs = Needs::of(material.shader);
     let [r, g, b] = if needs.texture { [1.0; 3] } else { [0, 1, 2].map(|i| material.color[i] * material.kd) };
     let Material { ka, ks, shininess, .. } = *material;
-    let mut text =
-        format!("Ka {ka} {ka} {ka}\nKd {r} {g} {b}\nKs {ks} {ks} {ks}\nNs {}\nillum 2\n", shininess.min(1000.0));
+    let mut text = format!(
+        "Ka {ka} {ka} {ka}\nKd {r} {g} {b}\nKs {ks} {ks} {ks}\nNs {}\nillum 2\n",
+        shininess.min(1000.0)
+    );
     if needs.texture {
         text += &format!("map_Kd {}.png\n", material.texture);
     }

@@ -23,7 +23,8 @@ pub struct Part<'a> {
 }
 
 /// What programs read of a mesh.
-const ALL: Needs = Needs { normal: true, uv: true, tangent: false, texture: false, height_map: false, environment: false };
+const ALL: Needs =
+    Needs { normal: true, uv: true, tangent: false, texture: false, height_map: false, environment: false };
 
 impl<'a> Part<'a> {
     /// The cloth of `scene` at `points`, if it has one.

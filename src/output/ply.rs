@@ -47,7 +47,8 @@ mod tests {
     #[test]
     fn meshes_are_joined_and_have_the_size_that_the_header_says() {
         let material = Material::default();
-        let bytes = encode(&[part(3, &[[0, 1, 2]], &material), part(4, &[[0, 1, 3], [1, 2, 3]], &material)]).unwrap();
+        let bytes =
+            encode(&[part(3, &[[0, 1, 2]], &material), part(4, &[[0, 1, 3], [1, 2, 3]], &material)]).unwrap();
         let header = bytes.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
         assert!(String::from_utf8_lossy(&bytes[..header]).contains("element vertex 7\n"));
         assert_eq!(bytes.len() - header, 7 * (3 * 8 + 5 * 4) + 3 * (1 + 3 * 4));

@@ -34,8 +34,12 @@ pub(super) fn shade<L: Lane, const N: usize>(
         // A loop, and not as much code for each part.
         for (i, varyings) in varyings.iter_mut().enumerate().take(L::PARTS) {
             let part = first + i * width..first + (i + 1) * width;
-            *varyings =
-                interpolator.varyings::<L::Part>(token, &list.pixels[part.clone()], &list.primitives[part.clone()], list.places(part));
+            *varyings = interpolator.varyings::<L::Part>(
+                token,
+                &list.pixels[part.clone()],
+                &list.primitives[part.clone()],
+                list.places(part),
+            );
         }
         let color = stage(Varyings::from_numbers(
             #[inline(always)]

@@ -201,7 +201,9 @@ fn depth_test<S: FragmentLanes>(
 pub(super) fn first_covered(corners: &[Corner; 3], pixel: [usize; 2], samples: usize) -> Option<usize> {
     let snapped = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
     let covered = |position: &[i32; 2]| {
-        let at = |axis: usize| pixel[axis] as i64 * i64::from(SUBPIXELS) + i64::from(position[axis] * (SUBPIXELS / 16));
+        let at = |axis: usize| {
+            pixel[axis] as i64 * i64::from(SUBPIXELS) + i64::from(position[axis] * (SUBPIXELS / 16))
+        };
         covers(snapped, [at(0), at(1)])
     };
     let positions = samples::positions(samples);

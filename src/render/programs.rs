@@ -63,7 +63,10 @@ impl Programs {
     /// The names of the textures that have transparent pixels.
     pub(super) fn transparent_textures(&self) -> Vec<&str> {
         let named = self.textures.iter().map(|(name, texture)| (name, texture.was_transparent()));
-        let cubes = self.cubemaps.iter().map(|(name, cube)| (name, cube.faces().iter().any(Texture::was_transparent)));
+        let cubes = self
+            .cubemaps
+            .iter()
+            .map(|(name, cube)| (name, cube.faces().iter().any(Texture::was_transparent)));
         named.chain(cubes).filter(|(_, transparent)| *transparent).map(|(name, _)| name.as_str()).collect()
     }
 

@@ -63,7 +63,8 @@ pub struct Loaded {
 /// [`Kind::Scene`] with every diagnostic if the file, a patch or a set is not valid;
 /// [`Kind::Io`] if a file cannot be read; [`Kind::Usage`] if a set is not of the form `PATH=JSON`.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
-    let name = if path == Path::new(STDIN) { "standard input".to_owned() } else { path.display().to_string() };
+    let name =
+        if path == Path::new(STDIN) { "standard input".to_owned() } else { path.display().to_string() };
     assemble(&name, &read(path)?, overrides, read)
 }
 

@@ -23,6 +23,7 @@ mod shader;
 mod sim;
 mod stock;
 mod without_effect;
+mod doubtful;
 mod validate;
 
 use json::key::Row;

@@ -98,7 +98,9 @@ fn nearly_number(path: &str, value: &str) -> Option<String> {
 /// Puts the value of `set` into `document`; objects on the way are made where they are missing.
 pub(super) fn apply(diagnostics: &mut Diagnostics, document: &mut Node, set: Set) {
     let steps = list_steps(document, set.steps);
-    if let ([step], Json::Null, Json::Object(members)) = (steps.as_slice(), &set.value.json, &mut document.json) {
+    if let ([step], Json::Null, Json::Object(members)) =
+        (steps.as_slice(), &set.value.json, &mut document.json)
+    {
         return members.retain(|member| member.key != step.name);
     }
     insert(diagnostics, document, &steps, "", set.value);

@@ -3,15 +3,13 @@
 use std::collections::BTreeMap;
 use std::iter;
 
+use super::doubtful;
 use super::json::diagnostic::Diagnostics;
 use super::json::finding::Finding;
 use super::json::node::Node;
 use super::json::span::Span;
 use super::json::text::enumerated;
-use super::without_effect;
-use super::{
-    Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Material, Precision, Scene, SelfCollision, Start,
-};
+use super::{Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Precision, Scene, SelfCollision, Start};
 
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
@@ -19,6 +17,7 @@ pub const MAX_OBJECTS: usize = 255;
 /// Makes every check of `scene`, read from `document`, whose values were read without an error.
 pub(super) fn validate(diagnostics: &mut Diagnostics, document: &Node, scene: &Scene) {
     Checks { diagnostics, document, scene }.run();
+    doubtful::warn(diagnostics, document, scene);
 }
 
 /// A scene that was read from `document`, under check.
@@ -38,8 +37,6 @@ impl Checks<'_> {
         }
         self.only_verlet();
         self.near_and_far();
-        self.seen_range();
-        self.without_effect();
         self.object_count();
     }
 
@@ -184,83 +181,6 @@ impl Checks<'_> {
         self.error(near.or(far), "", finding);
     }
 
-    /// Warns of planes near and far between which the target is not seen, or not told apart from what is beside it.
-    fn seen_range(&mut self) {
-        let camera = &self.scene.camera;
-        if camera.fit || !self.clean(&["camera", "cloth"]) {
-            return;
-        }
-        let distance = self.scene.camera_distance();
-        let step = distance * distance * DEPTH_STEP / camera.near;
-        let (key, message, fits) = if camera.near >= distance {
-            let message = format!("the target, {distance} m away, lies before the near plane at {} m", camera.near);
-            ("camera.near", message, distance / NEAR_PART)
-        } else if camera.far <= distance {
-            let message = format!("the target, {distance} m away, lies behind the far plane at {} m", camera.far);
-            ("camera.far", message, distance * 10.0)
-        } else if step > MOST_STEP * distance {
-            let message = format!(
-                "with the near plane at {} m, depths {distance} m away are told apart only in steps of {step:.1e} m",
-                camera.near
-            );
-            ("camera.near", message, distance / NEAR_PART)
-        } else {
-            return;
-        };
-        // One digit is enough.
-        let fits: f64 = format!("{fits:.0e}").parse().unwrap_or(fits);
-        let finding = Finding::new("scene::seen_range", message)
-            .key(key)
-            .help(format!("`--set {key}={fits}` does, if everything that is seen lies beyond that"));
-        let finding = if key == "camera.far" {
-            finding.help(format!("`--set {key}={fits}` does"))
-        } else {
-            finding
-        };
-        let place = ["camera.near", "camera.far", "camera.distance"].iter().find_map(|key| self.span(key));
-        self.warn(place, "given here", finding);
-    }
-
-    /// Warns of keys that are given and change nothing.
-    fn without_effect(&mut self) {
-        let scene = self.scene;
-        for key in without_effect::KEYS {
-            let given = self.span(key.path).filter(|_| self.clean(&[key.path]));
-            if given.is_some() && !(key.is_default)(scene) && !(key.acts)(scene) {
-                self.ineffective(given, key.path, key.needs);
-            }
-        }
-        let owners = without_effect::owners(scene);
-        if owners.is_empty() {
-            return;
-        }
-        for key in without_effect::material_keys() {
-            let read = |material: &Material| without_effect::reads(material.shader, key);
-            let unread = owners.iter().filter(|(_, material)| !read(material));
-            let mut paths: Vec<String> = unread.flat_map(|(paths, _)| paths).map(|path| format!("{path}.{key}")).collect();
-            if !owners.iter().any(|(_, material)| read(material)) {
-                paths.insert(0, format!("material.{key}"));
-            }
-            for path in paths {
-                if let Some(place) = self.span(&path) {
-                    self.ineffective(Some(place), &path, &without_effect::readers(key));
-                }
-            }
-        }
-    }
-
-    fn ineffective(&mut self, place: Option<Span>, path: &str, needs: &str) {
-        let finding = Finding::new("scene::without_effect", format!("`{path}` has no effect: {needs}")).key(path);
-        self.warn(place, "changes nothing", finding);
-    }
-
-    fn warn(&mut self, place: Option<Span>, label: &str, finding: Finding) {
-        self.diagnostics.warn(match place {
-            Some(place) => finding.at(place, label),
-            None => finding,
-        });
-    }
-
     fn object_count(&mut self) {
         let scene = self.scene;
         let count = scene.materials().count();
@@ -295,15 +215,6 @@ impl Checks<'_> {
         self.document.get(path).map(|node| node.span)
     }
 }
-
-/// Part by which neighbouring depths of 32 bits differ.
-const DEPTH_STEP: f64 = 1.0 / 16_777_216.0;
-
-/// Part of the camera's distance in which depths at the target must be told apart.
-const MOST_STEP: f64 = 1e-3;
-
-/// So much nearer than the target is a near plane that does.
-const NEAR_PART: f64 = 1000.0;
 
 const W: &str = "cloth.num_width_points";
 const H: &str = "cloth.num_height_points";

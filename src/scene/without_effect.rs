@@ -123,8 +123,11 @@ pub(super) fn reads(shader: Shader, key: &str) -> bool {
 /// The shaders that read a key, for a message.
 pub(super) fn readers(key: &str) -> String {
     let row = MATERIAL.iter().find(|(of, _)| *of == key);
-    let names: Vec<String> =
-        row.into_iter().flat_map(|(_, shaders)| shaders.iter()).map(|shader| format!("`{}`", shader.name())).collect();
+    let names: Vec<String> = row
+        .into_iter()
+        .flat_map(|(_, shaders)| shaders.iter())
+        .map(|shader| format!("`{}`", shader.name()))
+        .collect();
     match names.as_slice() {
         [name] => format!("only the shader {name} reads it"),
         names => format!("only the shaders {} read it", super::json::text::enumerated(names, "and")),

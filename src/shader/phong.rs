@@ -25,7 +25,12 @@ pub(super) fn blinn_phong<L: Lane>(u: &Uniforms<L, Vec3<L>>, v_position: Vec3<L>
 /// `facing` of the GLSL files: the normal `n`, turned round where the surface faces away from the camera and both
 /// sides are lit.
 #[inline(always)]
-pub(super) fn facing<L: Lane>(u: &Uniforms<L, Vec3<L>>, n: Vec3<L>, v_normal: Vec3<L>, v_position: Vec3<L>) -> Vec3<L> {
+pub(super) fn facing<L: Lane>(
+    u: &Uniforms<L, Vec3<L>>,
+    n: Vec3<L>,
+    v_normal: Vec3<L>,
+    v_position: Vec3<L>,
+) -> Vec3<L> {
     // The same for all fragments: where it is off, nothing is computed.
     if u.u_two_sided == 0.0 {
         return n;

@@ -171,7 +171,12 @@ fn seamless<P: Part>(cubemap: &Cubemap, face: P, [s, t]: [P; 2]) -> [P; 3] {
         P::transpose(
             x.token(),
             #[inline(always)]
-            |lane| cubemap.texel_around(face.lane(lane).cast_unsigned() as usize, [i.lane(lane) + right, j.lane(lane) + down]),
+            |lane| {
+                cubemap.texel_around(
+                    face.lane(lane).cast_unsigned() as usize,
+                    [i.lane(lane) + right, j.lane(lane) + down],
+                )
+            },
         )
     };
     let top = mix::<P>(texels(0, 0), texels(1, 0), fx);

@@ -288,7 +288,7 @@ fn without_ffmpeg_the_exit_code_is_6_and_the_line_to_run_is_told() {
     let line = run.stderr.lines().find(|line| line.trim().starts_with("ffmpeg ")).expect("a line to run");
     let expected = "ffmpeg -framerate 30 -i a/%04d.png -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x404040,\
         scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p' -c:v libx264 -pix_fmt \
-        yuv420p -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv -movflags +faststart a.mp4";
+        yuv420p -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv -movflags '+faststart' a.mp4";
     assert_eq!(line.trim(), expected);
     assert_eq!(scratch.names(), ["empty", "small.json"]);
     // The line is one that a shell can read.
@@ -299,7 +299,10 @@ fn without_ffmpeg_the_exit_code_is_6_and_the_line_to_run_is_told() {
     assert!(shell.status().unwrap().success());
     let mut words = String::new();
     File::open(scratch.path("a.mp4")).unwrap().read_to_string(&mut words).unwrap();
-    assert!(words.lines().any(|word| word.starts_with("pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x404040,scale=")), "{words}");
+    assert!(
+        words.lines().any(|word| word.starts_with("pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x404040,scale=")),
+        "{words}"
+    );
 }
 
 #[cfg(unix)]
@@ -342,16 +345,17 @@ fn a_signal_keeps_finished_pictures_and_no_other_file() {
 fn pictures_of_a_longer_run_are_removed() {
     let scratch = Scratch::new();
     let run = |frames: &str| {
-        let all = ["animate", "small.json", "p/%04d.png", "--fps", "30", "--size", "32x24", "--frames", frames];
+        let all =
+            ["animate", "small.json", "p/%04d.png", "--fps", "30", "--size", "32x24", "--frames", frames];
         let run = scratch.run(&all);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         run.stderr
     };
     run("0..24");
-    std::fs::write(scratch.path("p/0007.png"), b"of another program").unwrap();
-    std::fs::write(scratch.path("p/notes.txt"), b"kept").unwrap();
+    fs::write(scratch.path("p/0007.png"), b"of another program").unwrap();
+    fs::write(scratch.path("p/notes.txt"), b"kept").unwrap();
     let said = run("0..9");
-    let mut names: Vec<String> = std::fs::read_dir(scratch.path("p"))
+    let mut names: Vec<String> = fs::read_dir(scratch.path("p"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();

@@ -22,7 +22,8 @@ fn gif(scratch: &Scratch, name: &str, pictures: &[(u8, u16)], repeat: gif::Repea
     let mut encoder = gif::Encoder::new(File::create(scratch.path(name)).unwrap(), 8, 4, &palette).unwrap();
     encoder.set_repeat(repeat).unwrap();
     for &(grey, delay) in pictures {
-        let frame = gif::Frame { width: 8, height: 4, delay, buffer: vec![grey; 32].into(), ..Default::default() };
+        let frame =
+            gif::Frame { width: 8, height: 4, delay, buffer: vec![grey; 32].into(), ..Default::default() };
         encoder.write_frame(&frame).unwrap();
     }
 }
@@ -38,7 +39,17 @@ fn every_picture_of_an_animation_is_compared() {
         let (a, b) = (format!("a.{ending}"), format!("b.{ending}"));
         let animate = |out: &str, gravity: &str| {
             let set = format!("sim.gravity=[0,{gravity},0]");
-            scratch.succeed(&["animate", "small.json", out, "--frames", "0..9", "--size", "32x24", "--set", &set]);
+            scratch.succeed(&[
+                "animate",
+                "small.json",
+                out,
+                "--frames",
+                "0..9",
+                "--size",
+                "32x24",
+                "--set",
+                &set,
+            ]);
         };
         animate(&a, "-9.8");
         animate(&b, "-60");
@@ -46,11 +57,17 @@ fn every_picture_of_an_animation_is_compared() {
         let run = scratch.run(&["compare", &a, &b, "--json", "--diff", "d.png"]);
         let found = animation(&run);
         assert_eq!(run.code, Some(1), "{ending}: {found}");
-        assert_eq!((&found["pictures_a"], &found["pictures_b"]), (&found["pictures_b"], &found["pictures_a"]));
+        assert_eq!(
+            (&found["pictures_a"], &found["pictures_b"]),
+            (&found["pictures_b"], &found["pictures_a"])
+        );
         let first = found["first"].as_u64().expect("a picture that differs");
         assert!(first > 0, "the first pictures are equal: {found}");
         let shown = image::open(scratch.path("d.png")).unwrap().into_rgb8();
-        assert!(shown.pixels().any(|pixel| pixel.0 != [0; 3]), "the difference is of the picture that differs");
+        assert!(
+            shown.pixels().any(|pixel| pixel.0 != [0; 3]),
+            "the difference is of the picture that differs"
+        );
     }
     // A name does not make a still picture of it.
     fs::rename(scratch.path("b.apng"), scratch.path("b.png")).unwrap();
@@ -169,7 +186,11 @@ fn jpeg_pictures_are_compared_as_they_are_shown() {
         let mut encoder = JpegEncoder::new_with_quality(File::create(scratch.path(name)).unwrap(), 95);
         if let Some(orientation) = orientation {
             // A TIFF header and one entry: tag 0x0112, SHORT, one value.
-            let exif = [b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0".as_slice(), &[orientation, 0, 0, 0], &[0; 4]];
+            let exif = [
+                b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0".as_slice(),
+                &[orientation, 0, 0, 0],
+                &[0; 4],
+            ];
             encoder.set_exif_metadata(exif.concat()).unwrap();
         }
         encoder.write_image(picture([250, 0, 0]).as_raw(), 20, 10, ExtendedColorType::Rgb8).unwrap();

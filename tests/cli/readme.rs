@@ -64,7 +64,11 @@ pub(crate) fn shell(line: &str, folder: &Path) -> Output {
 fn outputs(line: &str) -> Vec<&str> {
     let code = line.split('#').next().unwrap_or_default();
     let words = code.split_whitespace().filter(|word| !word.contains(['/', '$']));
-    words.filter(|word| [".png", ".apng", ".obj", ".ply", ".glb", ".gif"].iter().any(|ending| word.ends_with(ending))).collect()
+    words
+        .filter(|word| {
+            [".png", ".apng", ".obj", ".ply", ".glb", ".gif"].iter().any(|ending| word.ends_with(ending))
+        })
+        .collect()
 }
 
 /// What a command left in the folder; folders end in `/`.

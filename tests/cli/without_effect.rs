@@ -21,7 +21,10 @@ fn options_that_change_nothing_are_named() {
     for (arguments, named) in [
         (&["--springs", "bending"][..], "--springs has no effect"),
         (&["--textures", "t"], "--textures has no effect"),
-        (&["--samples", "4", "--shader", "wireframe", "--set", "sphere=null"], "`render.samples` has no effect"),
+        (
+            &["--samples", "4", "--shader", "wireframe", "--set", "sphere=null"],
+            "`render.samples` has no effect",
+        ),
         (&["-a", "8", "--set", "sphere=null"], "-a has no effect"),
         (&["-o", "8", "--set", "sphere=null"], "-o has no effect"),
         (&["--set", "sim.iterations=3"], "`sim.iterations` has no effect"),
@@ -59,7 +62,8 @@ fn a_scene_may_come_from_standard_input() {
         assert_eq!(fed(&scratch, SMALL, &[command, "-"]).code, Some(0), "{command}");
     }
     // Read once, used for several simulations.
-    let study = fed(&scratch, SMALL, &["stability", "-", "map", "--quick", "--ks", "5000", "--density", "150"]);
+    let study =
+        fed(&scratch, SMALL, &["stability", "-", "map", "--quick", "--ks", "5000", "--density", "150"]);
     assert_eq!(study.code, Some(0), "{}", study.stderr);
     let wrong = fed(&scratch, "{\"cloht\": 1}", &["check", "-"]);
     assert_eq!(wrong.code, Some(3));
@@ -81,14 +85,16 @@ fn an_object_that_is_null_is_gone() {
 fn a_byte_order_mark_is_passed_over() {
     let scratch = Scratch::new();
     fs::write(scratch.path("mark.json"), format!("\u{feff}{SMALL}")).unwrap();
-    let hash = |path: &str| scratch.json(&["simulate", path, "--frames", "2", "--json"])["state_hash"].clone();
+    let hash =
+        |path: &str| scratch.json(&["simulate", path, "--frames", "2", "--json"])["state_hash"].clone();
     assert_eq!(hash("mark.json"), hash("small.json"));
 }
 
 #[test]
 fn a_folder_for_temporary_files_that_is_not_there_is_blamed() {
     let scratch = Scratch::new();
-    let mut command = scratch.command(&["animate", "small.json", "a.mp4", "--frames", "0..2", "--size", "32x24"]);
+    let mut command =
+        scratch.command(&["animate", "small.json", "a.mp4", "--frames", "0..2", "--size", "32x24"]);
     let bin = scratch.path("bin");
     fs::create_dir(&bin).unwrap();
     fs::write(bin.join("ffmpeg"), "#!/bin/sh\ncat > /dev/null\n").unwrap();
@@ -104,8 +110,11 @@ fn transparent_textures_are_noted() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("t")).unwrap();
     for (alpha, noted) in [(255, false), (100, true)] {
-        image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 100, 50, alpha])).save(scratch.path("t/glass.png")).unwrap();
-        let said = said(&scratch, &["--shader", "texture", "--textures", "t", "--set", "material.texture=glass"]);
+        image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 100, 50, alpha]))
+            .save(scratch.path("t/glass.png"))
+            .unwrap();
+        let said =
+            said(&scratch, &["--shader", "texture", "--textures", "t", "--set", "material.texture=glass"]);
         assert_eq!(said.contains("glass has transparent pixels"), noted, "{said}");
     }
 }

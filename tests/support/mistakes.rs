@@ -115,9 +115,11 @@ fn push(scene: &Scene, cloth: &mut Cloth<'_>, both: bool) {
     let settings = scene.cloth.as_ref().expect("a cloth");
     let spread = if both { f64::from(scene.sim.steps_per_frame) } else { 1.0 };
     let size = |length: f64, points: usize| 3.0 * length / points as f64;
-    let sizes = [size(settings.width, settings.num_width_points), size(settings.height, settings.num_height_points)];
+    let sizes =
+        [size(settings.width, settings.num_width_points), size(settings.height, settings.num_height_points)];
     let sizes = [sizes[0], sizes[1], sizes[0].max(sizes[1])];
-    let boxes: Vec<[i64; 3]> = cloth.x.iter().map(|x| [0, 1, 2].map(|c| (x[c] / sizes[c]).floor() as i64)).collect();
+    let boxes: Vec<[i64; 3]> =
+        cloth.x.iter().map(|x| [0, 1, 2].map(|c| (x[c] / sizes[c]).floor() as i64)).collect();
     for p in (0..cloth.x.len()).filter(|&p| !cloth.pinned[p]).collect::<Vec<_>>() {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
         for other in (0..cloth.x.len()).filter(|&other| other != p && boxes[other] == boxes[p]) {

@@ -33,8 +33,12 @@ impl Apng {
     /// # Errors
     /// [`Kind::Io`] when it cannot be written, [`Kind::Usage`] for more pictures than the format can count.
     fn create(path: &Path, playback: Playback, pictures: u64) -> Result<Self> {
-        let pictures = u32::try_from(pictures)
-            .map_err(|_| Error::new(Kind::Usage, format!("{pictures} pictures are too many for an APNG, which counts up to {}", u32::MAX)))?;
+        let pictures = u32::try_from(pictures).map_err(|_| {
+            Error::new(
+                Kind::Usage,
+                format!("{pictures} pictures are too many for an APNG, which counts up to {}", u32::MAX),
+            )
+        })?;
         let staged = Staged::create(path)?;
         let writer = header(staged.file()?, playback, pictures).map_err(|e| failed(&staged, e))?;
         Ok(Self { staged, writer, changes: Changes::new(playback.width) })

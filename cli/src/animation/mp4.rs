@@ -29,7 +29,8 @@ fn encoding(playback: Playback) -> Vec<String> {
         "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x{r:02x}{g:02x}{b:02x},\
          scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p"
     );
-    let tags = ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"];
+    let tags =
+        ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"];
     let first = ["-vf", &filter, "-c:v", "libx264", "-pix_fmt", "yuv420p"];
     first.into_iter().chain(tags).chain(["-movflags", "+faststart"]).map(str::to_owned).collect()
 }

@@ -55,7 +55,8 @@ fn chosen(colors: &[Counted]) -> Vec<[u8; 3]> {
     let mut sorted = colors.to_vec();
     let mut parts = vec![Part::of(&mut sorted)];
     while parts.len() < MOST {
-        let widest = (0..parts.len()).max_by(|&a, &b| parts[a].spread.total_cmp(&parts[b].spread).then(b.cmp(&a)));
+        let widest =
+            (0..parts.len()).max_by(|&a, &b| parts[a].spread.total_cmp(&parts[b].spread).then(b.cmp(&a)));
         let Some(widest) = widest.filter(|&widest| parts[widest].colors.len() > 1) else { break };
         let [low, high] = parts.swap_remove(widest).cut();
         parts.extend([low, high]);
@@ -98,14 +99,17 @@ impl<'a> Part<'a> {
 }
 
 fn sums(colors: &[Counted], axis: usize) -> (u64, u64) {
-    colors.iter().fold((0, 0), |(sum, all), (color, count)| (sum + u64::from(color[axis]) * count, all + count))
+    colors
+        .iter()
+        .fold((0, 0), |(sum, all), (color, count)| (sum + u64::from(color[axis]) * count, all + count))
 }
 
 /// The sum of the squared distances from the mean along one axis.
 #[expect(clippy::cast_precision_loss, reason = "sums of at most 2^28 pixels")]
 fn spread(colors: &[Counted], axis: usize) -> f64 {
     let (sum, count) = sums(colors, axis);
-    let squares: u64 = colors.iter().map(|(color, count)| u64::from(color[axis]) * u64::from(color[axis]) * count).sum();
+    let squares: u64 =
+        colors.iter().map(|(color, count)| u64::from(color[axis]) * u64::from(color[axis]) * count).sum();
     squares as f64 - sum as f64 * (sum as f64 / count as f64)
 }
 
@@ -120,7 +124,9 @@ fn mean(colors: impl Iterator<Item = Counted>) -> [u8; 3] {
 
 /// The number of the nearest colour, the first of several.
 fn nearest(palette: &[[u8; 3]], color: [u8; 3]) -> u8 {
-    let distance = |other: &[u8; 3]| -> u32 { (0..3).map(|axis| u32::from(other[axis].abs_diff(color[axis])).pow(2)).sum() };
+    let distance = |other: &[u8; 3]| -> u32 {
+        (0..3).map(|axis| u32::from(other[axis].abs_diff(color[axis])).pow(2)).sum()
+    };
     let best = (0..palette.len()).min_by_key(|&i| distance(&palette[i])).unwrap_or(0);
     u8::try_from(best).unwrap_or(u8::MAX)
 }
@@ -146,7 +152,8 @@ mod tests {
             let (x, y) = (i % 64 - 32, i / 64 - 32);
             let r = f64::from(x * x + y * y);
             let light = 1.0 / (1.0 + r / 600.0);
-            [0.9 * light + 0.1, 0.6 * light + 0.05, 0.3 * light + 0.3 * light * light].map(|c| (c * 255.0).min(255.0) as u8)
+            [0.9 * light + 0.1, 0.6 * light + 0.05, 0.3 * light + 0.3 * light * light]
+                .map(|c| (c * 255.0).min(255.0) as u8)
         };
         let smooth: Vec<u8> = (0..4096).flat_map(shade).collect();
         assert!(error(&smooth) < 0.4, "{}", error(&smooth));

@@ -87,7 +87,12 @@ impl RenderArgs {
         let lines = scene.cloth.as_ref().is_some_and(|cloth| cloth.material.shader == Shader::Wireframe);
         let no_spheres = scene.spheres().next().is_none();
         for (given, acts, option, needs) in [
-            (self.springs.is_some(), lines, "--springs", "only the shader `wireframe` draws the springs of a cloth"),
+            (
+                self.springs.is_some(),
+                lines,
+                "--springs",
+                "only the shader `wireframe` draws the springs of a cloth",
+            ),
             (self.latitudes.is_some(), !no_spheres, "-a", "the scene has no sphere"),
             (self.longitudes.is_some(), !no_spheres, "-o", "the scene has no sphere"),
             (
@@ -96,7 +101,12 @@ impl RenderArgs {
                 "--textures",
                 "no shader of the scene reads a picture",
             ),
-            (self.shader.is_some(), scene.materials().next().is_some(), "--shader", "the scene has no object"),
+            (
+                self.shader.is_some(),
+                scene.materials().next().is_some(),
+                "--shader",
+                "the scene has no object",
+            ),
         ] {
             if given && !acts {
                 ui.caution(&format!("{option} has no effect: {needs}"), "");

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::args::scene::{SceneArgs, frame_at};
 use super::unlit;
+use crate::args::scene::{SceneArgs, frame_at};
 use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};

@@ -20,7 +20,10 @@ const BRIGHT: f64 = 1e14;
 /// Those of a simulation and a renderer of the scene.
 pub(crate) fn part(scene: &Scene) -> Result<Option<f64>> {
     let is_lit = |shader: Shader| {
-        matches!(shader, Shader::Diffuse | Shader::Phong | Shader::Bump | Shader::Displacement | Shader::Custom)
+        matches!(
+            shader,
+            Shader::Diffuse | Shader::Phong | Shader::Bump | Shader::Displacement | Shader::Custom
+        )
     };
     let lit: Vec<bool> = scene.materials().map(|material| is_lit(material.shader)).collect();
     if !lit.contains(&true) {

@@ -66,7 +66,10 @@ impl Case<'_> {
     /// theirs to the digits of the file makes.
     pub(super) fn distances(&self, window: Range<usize>, ours: &[Ours], precision: &Precision) -> Vec<f64> {
         let theirs = &self.theirs[window];
-        ours.iter().zip(theirs).map(|(ours, theirs)| largest_beyond(&ours.positions, theirs, precision)).collect()
+        ours.iter()
+            .zip(theirs)
+            .map(|(ours, theirs)| largest_beyond(&ours.positions, theirs, precision))
+            .collect()
     }
 
     /// The frame of state `k`.

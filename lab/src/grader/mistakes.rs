@@ -4,8 +4,8 @@ use std::num::Wrapping;
 
 use super::case::Ours;
 use super::plain::{Faults, Plain, Push};
-use drape::cloth::{Counters, Points};
 use drape::cloth::springs::SpringKind;
+use drape::cloth::{Counters, Points};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Cloth, Collider, Orientation, Scene, SelfCollision};
 use drape::simulation::Simulation;
@@ -117,13 +117,20 @@ pub(super) fn all(scene: &Scene) -> Vec<Mistake> {
 fn plain(scene: &Scene) -> Vec<Mistake> {
     let none = Faults::default();
     let pushes = |push| Faults { push, ..none };
-    let mut faults = vec![("forces that are not set to 0 before each step", Faults { kept_forces: true, ..none })];
+    let mut faults =
+        vec![("forces that are not set to 0 before each step", Faults { kept_forces: true, ..none })];
     if scene.sim.self_collision == SelfCollision::SameBox {
         faults.extend([
-            ("self-collision that pushes the other points too, each by its own distance", pushes(Push::MeanAndEach)),
+            (
+                "self-collision that pushes the other points too, each by its own distance",
+                pushes(Push::MeanAndEach),
+            ),
             ("self-collision that pushes the other points too, by the mean", pushes(Push::MeanBack)),
             ("self-collision that pushes both points of each pair by the whole distance", pushes(Push::Both)),
-            ("self-collision that pushes both points of each pair by half of the distance", pushes(Push::BothHalf)),
+            (
+                "self-collision that pushes both points of each pair by half of the distance",
+                pushes(Push::BothHalf),
+            ),
             ("self-collision not divided by the steps of a frame", Faults { whole_push: true, ..none }),
             ("cells of 3 width / (W - 1) instead of 3 width / W", Faults { wide_cells: true, ..none }),
         ]);

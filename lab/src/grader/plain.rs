@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 
 use drape::cloth::Points;
 use drape::cloth::springs::SpringKind;
-use drape::scene::{Cloth, Contact, Damping, Integrator, Plane, Precision, Scene, SelfCollision, Sphere, Start, Vec3};
+use drape::scene::{
+    Cloth, Contact, Damping, Integrator, Plane, Precision, Scene, SelfCollision, Sphere, Start, Vec3,
+};
 
 /// What a plain program does differently.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,7 +89,16 @@ impl<'a> Plain<'a> {
                 springs.push(Spring { ends: [p, q], stiffness, rest: length(x[p] - x[q]) });
             }
         }
-        Self { scene, cloth, faults, last: x.clone(), forces: vec![Vec3::zeros(); x.len()], x, pinned, springs }
+        Self {
+            scene,
+            cloth,
+            faults,
+            last: x.clone(),
+            forces: vec![Vec3::zeros(); x.len()],
+            x,
+            pinned,
+            springs,
+        }
     }
 
     /// The points.
@@ -281,7 +292,9 @@ mod tests {
             let off = (0..ours.len()).map(|p| length(ours.get(p) - theirs.get(p))).fold(0.0, f64::max);
             let counters = engine.counters();
             assert!(off < 1e-9, "{file}: {off}");
-            assert!(counters.springs_limited > 0 && counters.self_collision_moves + counters.object_moves > 0);
+            assert!(
+                counters.springs_limited > 0 && counters.self_collision_moves + counters.object_moves > 0
+            );
         }
     }
 }

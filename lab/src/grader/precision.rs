@@ -22,7 +22,8 @@ pub(super) struct Precision {
 impl Precision {
     /// The precision of all finite numbers of `states`.
     pub(super) fn of(states: &[State]) -> Self {
-        let numbers = || states.iter().flat_map(|state| state.as_flattened()).copied().filter(|x| x.is_finite());
+        let numbers =
+            || states.iter().flat_map(|state| state.as_flattened()).copied().filter(|x| x.is_finite());
         let digits = fewest(numbers(), |digits, x| format!("{x:.*e}", digits.saturating_sub(1)));
         let decimals = fewest(numbers(), |decimals, x| format!("{x:.decimals$}"));
         #[expect(clippy::cast_possible_truncation, reason = "what binary32 makes of it is the question")]

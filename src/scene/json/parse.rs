@@ -163,7 +163,9 @@ fn reason(kind: &ParseErrorKind) -> String {
         K::UnexpectedToken | K::UnexpectedWord => "this is no JSON value".into(),
         K::UnexpectedTokenInObject => "expected a key in quotes, or `}`".into(),
         K::ExpectedColonAfterObjectKey => "expected `:` after the key".into(),
-        K::CommentsNotAllowed => "comments are not allowed: a scene is plain JSON, as in the course's viewer".into(),
+        K::CommentsNotAllowed => {
+            "comments are not allowed: a scene is plain JSON, as in the course's viewer".into()
+        }
         K::ExpectedComma => "expected `,`".into(),
         K::ExpectedDigitFollowingNegativeSign => "expected a digit after the sign".into(),
         K::ExpectedPlusMinusOrDigitInNumberLiteral => "expected an exponent".into(),

@@ -6,8 +6,7 @@ use super::{program, python};
 use crate::scratch::{Scratch, scene};
 
 /// A textured scene with many colours.
-const LOOK: [&str; 8] =
-    ["--time", "0.2", "--fps", "30", "--size", "160x125", "--set", "camera.polar=60"];
+const LOOK: [&str; 6] = ["--time", "0.2", "--fps", "30", "--set", "camera.polar=60"];
 
 fn animate(scratch: &Scratch, out: &str, more: &[&str]) {
     let path = scene("sphere.json");
@@ -17,7 +16,7 @@ fn animate(scratch: &Scratch, out: &str, more: &[&str]) {
 #[test]
 fn pillow_sees_every_picture_of_a_gif_and_an_apng_in_its_colours() {
     let scratch = Scratch::new();
-    let textured = ["--shader", "texture"];
+    let textured = ["--shader", "texture", "--size", "160x125"];
     std::fs::create_dir(scratch.path("p")).unwrap();
     animate(&scratch, "p/%04d.png", &textured);
     for (out, most) in [("a.gif", 0.78), ("a.apng", 0.0)] {
@@ -39,9 +38,19 @@ fn a_film_is_tagged_bt_709_and_shows_the_colours_of_the_pictures() {
         return;
     }
     // Odd sides; a scene of one colour and its background.
-    let red = ["--size", "161x125", "--shader", "wireframe", "--set", "material.color=[1,0,0]", "--set", "render.background=[0,0.5,0.25]"];
+    let red = [
+        "--size",
+        "161x125",
+        "--shader",
+        "wireframe",
+        "--set",
+        "material.color=[1,0,0]",
+        "--set",
+        "render.background=[0,0.5,0.25]",
+    ];
     animate(&scratch, "a.mp4", &red);
-    let entries = "stream=width,height,color_space,color_primaries,color_transfer,color_range,pix_fmt,nb_frames";
+    let entries =
+        "stream=width,height,color_space,color_primaries,color_transfer,color_range,pix_fmt,nb_frames";
     let probe = ["-v", "error", "-select_streams", "v", "-show_entries", entries, "-of", "json", "a.mp4"];
     let stream: Value = serde_json::from_slice(&program(&scratch, "ffprobe", &probe).unwrap()).unwrap();
     let stream = &stream["streams"][0];
@@ -67,6 +76,7 @@ fn a_film_is_tagged_bt_709_and_shows_the_colours_of_the_pictures() {
     for [x, y] in [[0, 0], [161, 60], [80, 125], [161, 125]] {
         assert!(near(pixel(x, y), [0, 128, 64]), "{x}, {y}: {:?}", pixel(x, y));
     }
-    let reds = (0..126).flat_map(|y| (0..162).map(move |x| [x, y])).filter(|&[x, y]| near(pixel(x, y), [255, 0, 0]));
+    let reds =
+        (0..126).flat_map(|y| (0..162).map(move |x| [x, y])).filter(|&[x, y]| near(pixel(x, y), [255, 0, 0]));
     assert!(reds.count() > 200, "the ball is red");
 }

@@ -10,7 +10,8 @@ use crate::scratch::{Scratch, scene};
 /// Upper half of the texture red, lower half blue.
 fn textures(scratch: &Scratch) {
     std::fs::create_dir(scratch.path("t")).unwrap();
-    let texture = image::RgbImage::from_fn(16, 16, |_, y| image::Rgb(if y < 8 { [255, 0, 0] } else { [0, 0, 255] }));
+    let texture =
+        image::RgbImage::from_fn(16, 16, |_, y| image::Rgb(if y < 8 { [255, 0, 0] } else { [0, 0, 255] }));
     texture.save(scratch.path("t/halves.png")).unwrap();
 }
 
@@ -25,7 +26,7 @@ fn export(scratch: &Scratch, out: &str, more: &[&str]) {
 fn assert_upright(cloth: &Value, out: &str) {
     assert_eq!((&cloth["vertices"], &cloth["faces"]), (&81.into(), &128.into()), "{out}");
     assert!(cloth["outward"].as_f64() > Some(0.5), "{out}: faces turn to the side of their normals: {cloth}");
-    if cloth.get("colors").is_some() {
+    if matches!(out, "cloth.obj" | "cloth.glb") {
         assert_eq!(cloth["colors"], json!([[255, 0, 0], [0, 0, 255]]), "{out}");
     } else {
         assert_eq!(cloth["uv"], json!([[0.0, 1.0], [1.0, 0.0]]), "{out}: v grows upwards");
@@ -46,7 +47,6 @@ fn trimesh_reads_meshes_with_their_textures_upright() {
         let Some(found) = python(&scratch, "meshes", &[out]) else { return };
         let cloth = found.as_object().unwrap().values().next().unwrap().clone();
         assert_upright(&cloth, out);
-        assert_eq!(cloth.get("colors").is_some(), matches!(out, "cloth.obj" | "cloth.glb"), "{out}: {cloth}");
         bounds.push(serde_json::from_value::<Vec<[f64; 3]>>(cloth["bounds"].clone()).unwrap());
     }
     let near = |a: &Vec<[f64; 3]>| {
@@ -66,10 +66,10 @@ fn trimesh_reads_the_other_objects_where_they_are() {
         let ball = found.as_object().unwrap().iter().find(|(name, _)| name.starts_with("sphere")).unwrap().1;
         let bounds: Vec<[f64; 3]> = serde_json::from_value(ball["bounds"].clone()).unwrap();
         // As it is drawn, with 0.92 of its radius.
-        for (axis, centre) in [0.5, 0.5, 0.5].into_iter().enumerate() {
+        for (axis, centre) in [0.5, 0.2, 0.5].into_iter().enumerate() {
             let middle = (bounds[0][axis] + bounds[1][axis]) / 2.0;
             assert!((middle - centre).abs() < 2e-3, "{out}: {bounds:?}");
-            assert!((bounds[1][axis] - middle - 0.92 * 0.3).abs() < 2e-3, "{out}: {bounds:?}");
+            assert!((bounds[1][axis] - middle - 0.92 * 0.2).abs() < 2e-3, "{out}: {bounds:?}");
         }
     }
 }
@@ -82,7 +82,8 @@ fn validated(scratch: &Scratch, file: &str) -> Option<Value> {
         not_checked("the glTF validator", ".ci/install-readers has not run");
         return None;
     }
-    let run = Command::new("node").arg(script).arg(modules).arg(scratch.path(file)).output().expect("node starts");
+    let run =
+        Command::new("node").arg(script).arg(modules).arg(scratch.path(file)).output().expect("node starts");
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     Some(serde_json::from_slice(&run.stdout).unwrap())
 }
@@ -119,7 +120,8 @@ fn blender_plays_the_motion() {
     let path = scene("sphere.json");
     let few = ["--set", "cloth.num_width_points=9", "--set", "cloth.num_height_points=9"];
     scratch.succeed(&[&["simulate", &path, "--frames", "30", "--positions", "p"][..], &few].concat());
-    let numbers: Vec<f64> = scratch.read("p").chunks(8).map(|c| f64::from_le_bytes(c.try_into().unwrap())).collect();
+    let numbers: Vec<f64> =
+        scratch.read("p").chunks(8).map(|c| f64::from_le_bytes(c.try_into().unwrap())).collect();
     let mut expected: Vec<f64> = numbers.chunks(3).map(|point| point[1]).collect();
     expected.sort_by(f64::total_cmp);
     let heights: Vec<Vec<f64>> = serde_json::from_value(found["heights"].clone()).unwrap();

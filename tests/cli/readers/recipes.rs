@@ -18,7 +18,10 @@ fn block(language: &str) -> String {
 fn python_after(word: &str, language: &str, module: &str) -> Option<String> {
     let interpreter = installed("venv/bin/python");
     let has = |module: &str| {
-        Command::new(&interpreter).args(["-c", &format!("import {module}")]).output().is_ok_and(|o| o.status.success())
+        Command::new(&interpreter)
+            .args(["-c", &format!("import {module}")])
+            .output()
+            .is_ok_and(|o| o.status.success())
     };
     if !interpreter.exists() || !has(module) {
         if module == "bpy" {
@@ -29,9 +32,11 @@ fn python_after(word: &str, language: &str, module: &str) -> Option<String> {
         return None;
     }
     let folder = folder();
-    let line = lines_of("docs/recipes.md", "sh").into_iter().find(|line| line.contains(word)).expect("a command");
+    let line =
+        lines_of("docs/recipes.md", "sh").into_iter().find(|line| line.contains(word)).expect("a command");
     assert!(shell(&line, folder.path()).status.success(), "{line}");
-    let run = Command::new(interpreter).args(["-c", &block(language)]).current_dir(folder.path()).output().unwrap();
+    let run =
+        Command::new(interpreter).args(["-c", &block(language)]).current_dir(folder.path()).output().unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     Some(String::from_utf8_lossy(&run.stdout).into_owned())
 }

@@ -83,10 +83,14 @@ fn cases() -> Vec<Case> {
             cases.push(Case { scene: "sphere", seconds: 0, shader, sets });
         }
     }
-    let cures = ["material.two_sided=true", "material.bitangent=uv", "render.seamless=true"].map(String::from);
-    for shader in [Shader::Diffuse, Shader::Phong, Shader::Bump, Shader::Displacement, Shader::Mirror, Shader::Custom] {
-        let low = ["camera.polar=100", "camera.distance=1.4", "render.size=[333,217]"].map(String::from);
-        let sets = [&cures[..], &low, &MATERIAL.iter().map(|set| set.to_string()).collect::<Vec<_>>()].concat();
+    let cures =
+        ["material.two_sided=true", "material.bitangent=uv", "render.seamless=true"].map(String::from);
+    for shader in
+        [Shader::Diffuse, Shader::Phong, Shader::Bump, Shader::Displacement, Shader::Mirror, Shader::Custom]
+    {
+        let low = ["camera.polar=100", "camera.distance=1.4", "render.size=[1024,800]"].map(String::from);
+        let sets =
+            [&cures[..], &low, &MATERIAL.iter().map(|set| set.to_string()).collect::<Vec<_>>()].concat();
         cases.push(Case { scene: "sphere", seconds: 1, shader, sets });
     }
     let sets = vec![format!("plane=[{PLANE},{PLANE}]")];
@@ -154,14 +158,25 @@ fn compare_lines(device: &mut Device<'_>) -> LineTally {
 
 /// Pictures of four samples: with `centroid` the driver shades where we do, and without it elsewhere. Returns how many
 /// pixels are more than two levels apart, with and without, of how many.
+///
+/// The driver takes samples behind what it has drawn before as not covered, which the standard leaves open. So there is
+/// no textured floor behind a cloth here.
 fn compare_samples(context: &Context, states: &[(&str, [Points; 3])]) -> [usize; 3] {
     let mut counts = [0; 3];
     for (column, qualifier) in ["centroid", ""].into_iter().enumerate() {
         let mut device = Device::qualified(context, qualifier);
-        for (name, shader) in [("sphere", "phong"), ("plane", "texture"), ("pinned2", "bump"), ("sphere", "normal")] {
+        for (name, shader) in
+            [("sphere", "phong"), ("pinned2", "texture"), ("pinned2", "bump"), ("sphere", "normal")]
+        {
             let (_, states) = states.iter().find(|(of, _)| *of == name).unwrap();
             let shader = format!("material.shader={shader}");
-            let sets = ["render.samples=4", "render.size=[320,250]", "camera.polar=70", "material.texture=texture_4", &shader];
+            let sets = [
+                "render.samples=4",
+                "render.size=[320,250]",
+                "camera.polar=70",
+                "material.texture=texture_4",
+                &shader,
+            ];
             let scene = scene(name, sets.map(String::from).to_vec());
             let renderer = Renderer::new(&scene, &TextureSource::BuiltIn).unwrap();
             let own = renderer.draw(&states[1], &Options::default());
@@ -169,12 +184,6 @@ fn compare_samples(context: &Context, states: &[(&str, [Points; 3])]) -> [usize;
             let apart = differences(&own.rgb, &gl);
             counts[column] += apart.iter().filter(|&&levels| levels > 2).count();
             counts[2] += if column == 0 { apart.len() } else { 0 };
-            let mut h = [0; 8];
-            for &d in &apart { h[usize::from(d.min(255)).next_power_of_two().trailing_zeros().min(7) as usize] += 1; }
-            println!("{qualifier} {name} {shader} {h:?}");
-            for (i, _) in apart.iter().enumerate().filter(|(_, d)| **d > 2).take(6) {
-                println!("  {} {}: {:?} {:?}", i % 320, i / 320, &own.rgb[3*i..3*i+3], &gl[3*i..3*i+3]);
-            }
         }
     }
     counts

@@ -130,7 +130,10 @@ fn budgets_count_per_band_of_magnitudes() {
 
 #[test]
 fn budgets_that_make_no_sense_are_refused() {
-    for text in ["", "5", ":", "5:", ":5", "0:5", "256:1", "-1:1", "5:-1", "5:1:1", "5:x", "5.0:1", "%", "5:%", "-1%", "101%", "NaN%"] {
+    for text in [
+        "", "5", ":", "5:", ":5", "0:5", "256:1", "-1:1", "5:-1", "5:1:1", "5:x", "5.0:1", "%", "5:%", "-1%",
+        "101%", "NaN%",
+    ] {
         assert!(text.parse::<Budget>().is_err(), "{text}");
     }
     assert_eq!("255:0".parse(), Ok(Budget { magnitude: 255, count: Allowed::Pixels(0) }));

@@ -3,8 +3,9 @@
 use std::fs;
 
 use drape::scene::{
-    Bitangent, Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides,
-    Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
+    Bitangent, Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation,
+    Overrides, Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load,
+    load_text,
 };
 
 const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];

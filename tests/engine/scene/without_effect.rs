@@ -7,12 +7,14 @@ use drape::texture_source::TextureSource;
 
 /// The keys that are warned of in a text with changes.
 fn ineffective(text: &str, sets: &[String]) -> (Scene, Vec<String>) {
-    let loaded = load_text("x.json", text, &Overrides { sets: sets.to_vec(), ..Overrides::default() }).unwrap();
+    let loaded =
+        load_text("x.json", text, &Overrides { sets: sets.to_vec(), ..Overrides::default() }).unwrap();
     let keys = loaded.warnings.iter().filter(|warning| warning.code == "scene::without_effect");
     (loaded.scene, keys.map(|warning| warning.key.clone()).collect())
 }
 
-const BALL: &str = r#"{"sphere": {"origin": [0.5, 0.5, 0.5], "radius": 0.5, "friction": 0}, "render": {"size": [60, 50]}}"#;
+const BALL: &str =
+    r#"{"sphere": {"origin": [0.5, 0.5, 0.5], "radius": 0.5, "friction": 0}, "render": {"size": [60, 50]}}"#;
 
 fn drawn(scene: &Scene) -> Vec<u8> {
     let renderer = Renderer::new(scene, &TextureSource::BuiltIn).unwrap();
@@ -23,11 +25,17 @@ fn drawn(scene: &Scene) -> Vec<u8> {
 #[test]
 fn a_key_of_a_material_is_warned_of_where_no_shader_reads_it() {
     // From below, so that what faces away is seen.
-    let base = ["camera.polar=120", "material.normal_scaling=30", "light.position=[0.5,2,0.6]"].map(String::from);
+    let base =
+        ["camera.polar=120", "material.normal_scaling=30", "light.position=[0.5,2,0.6]"].map(String::from);
     let mut unread = 0;
     for (name, _) in Shader::NAMES {
         let with = |more: &[&str]| {
-            let sets: Vec<String> = base.iter().cloned().chain([format!("material.shader={name}")]).chain(more.iter().map(|set| set.to_string())).collect();
+            let sets: Vec<String> = base
+                .iter()
+                .cloned()
+                .chain([format!("material.shader={name}")])
+                .chain(more.iter().map(|set| set.to_string()))
+                .collect();
             ineffective(BALL, &sets)
         };
         let plain = drawn(&with(&[]).0);
@@ -91,7 +99,8 @@ fn stock_scenes_and_looks_are_not_warned_of() {
     for name in ["sphere", "plane", "pinned2", "pinned4", "selfCollision"] {
         let path = crate::repository::path("scenes").join(format!("{name}.json"));
         for look in [None, Some("ball"), Some("draped"), Some("folding")] {
-            let patches = look.map(|look| crate::repository::path("scenes/look").join(format!("{look}.json")));
+            let patches =
+                look.map(|look| crate::repository::path("scenes/look").join(format!("{look}.json")));
             let overrides = Overrides { patches: patches.into_iter().collect(), ..Overrides::default() };
             assert_eq!(load(&path, &overrides).unwrap().warnings, [], "{name} {look:?}");
         }

@@ -2,5 +2,6 @@
 
 mod glsl;
 mod height_maps;
+mod relief;
 mod sampling;
 mod shading;

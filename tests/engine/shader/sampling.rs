@@ -225,7 +225,8 @@ fn around(map: &Cubemap, of: usize, i: i64, j: i64) -> [f64; 3] {
     let inside = |k: i64| (0..n).contains(&k);
     let beyond = |i: i64, j: i64| {
         // A millionth beyond the edge, so that the direction hits the next face.
-        let at = |k: i64| if inside(k) { (2 * k + 1 - n) as f64 } else { k.signum() as f64 * (n as f64 + 1e-6) };
+        let at =
+            |k: i64| if inside(k) { (2 * k + 1 - n) as f64 } else { k.signum() as f64 * (n as f64 + 1e-6) };
         let [s, t] = [at(i), at(j)].map(|c| c / n as f64);
         let direction = match of {
             0 => [1.0, -t, -s],
@@ -281,7 +282,10 @@ fn seamless_lookups_do_not_jump() {
     let map = cube(|i| noise(16, 16, i as u64));
     let jump = |seamless: bool, a: [f32; 3], b: [f32; 3]| {
         let at = |[x, y, z]: [f32; 3]| {
-            lanes(texture_cube(SamplerCube { cubemap: &map, filter: Filter::Bilinear, seamless }, vec3(x, y, z)))
+            lanes(texture_cube(
+                SamplerCube { cubemap: &map, filter: Filter::Bilinear, seamless },
+                vec3(x, y, z),
+            ))
         };
         distance(at(a), at(b))
     };
@@ -289,7 +293,10 @@ fn seamless_lookups_do_not_jump() {
     for code in (0..27).filter(|&code| code != 13) {
         let towards = [code % 3, code / 3 % 3, code / 9].map(|c| c as f32 - 1.0);
         for i in 0..200_u64 {
-            let nudge = |salt: u64| [0, 1, 2].map(|k| ((splitmix64(900 * i + 3 * salt + k) >> 40) as f32 / 8_388_608.0 - 1.0) * 1e-5);
+            let nudge = |salt: u64| {
+                [0, 1, 2]
+                    .map(|k| ((splitmix64(900 * i + 3 * salt + k) >> 40) as f32 / 8_388_608.0 - 1.0) * 1e-5)
+            };
             let along = towards.map(|c| if c == 0.0 { i as f32 / 100.0 - 1.0 } else { c });
             let add = |by: [f32; 3]| [0, 1, 2].map(|k| along[k] + by[k]);
             let (a, b) = (add(nudge(1)), add(nudge(2)));
@@ -304,7 +311,10 @@ fn seamless_lookups_do_not_jump() {
 fn no_direction_at_all_reads_the_middle_of_the_first_face() {
     let map = cube(|i| noise(8, 8, i as u64));
     for filter in [Filter::Nearest, Filter::Bilinear] {
-        let middle = lanes(texture(Sampler2d { texture: &map.faces()[0], filter, wrap_v: Wrap::Repeat }, [0.5_f32, 0.5]));
+        let middle = lanes(texture(
+            Sampler2d { texture: &map.faces()[0], filter, wrap_v: Wrap::Repeat },
+            [0.5_f32, 0.5],
+        ));
         for bad in [[0.0; 3], [-0.0; 3], [f32::NAN; 3], [1.0, f32::NAN, 0.0], [f32::NAN, 0.0, 1.0]] {
             assert_eq!(look(&map, filter, bad), middle, "{bad:?}");
         }

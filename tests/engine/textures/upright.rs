@@ -83,9 +83,8 @@ fn pictures_end_at_the_poles() {
     // Only the lower half is lifted: the outline ends where the ball does.
     let side = draw(&half, BALL, r#""target": [0, 0, 0], "distance": 4"#, "displacement");
     let plain = draw(&half, BALL, r#""target": [0, 0, 0], "distance": 4"#, "phong");
-    let top = |picture: &Picture| {
-        (0..120).find(|&y| (55..65).any(|x| pixel(picture, [x, y]) != [64; 3])).unwrap()
-    };
+    let top =
+        |picture: &Picture| (0..120).find(|&y| (55..65).any(|x| pixel(picture, [x, y]) != [64; 3])).unwrap();
     assert_eq!(top(&side), top(&plain), "a spike at the pole");
 }
 
@@ -122,8 +121,13 @@ fn pictures_are_turned_as_their_exif_data_say() {
             assert_eq!([w, h], if orientation < 5 { [64, 32] } else { [32, 64] }, "{orientation}");
             let places = [[w / 4, h / 4], [3 * w / 4, h / 4], [w / 4, 3 * h / 4], [3 * w / 4, 3 * h / 4]];
             for ([x, y], quarter) in places.into_iter().zip(shown) {
-                let off = (0..3).map(|i| (texture.texel(x, y)[i] - f32::from(QUARTERS[quarter][i]) / 255.0).abs());
-                assert!(off.fold(0.0, f32::max) < 0.02, "{orientation} at {x}, {y}: {:?}", texture.texel(x, y));
+                let off =
+                    (0..3).map(|i| (texture.texel(x, y)[i] - f32::from(QUARTERS[quarter][i]) / 255.0).abs());
+                assert!(
+                    off.fold(0.0, f32::max) < 0.02,
+                    "{orientation} at {x}, {y}: {:?}",
+                    texture.texel(x, y)
+                );
             }
         }
     }

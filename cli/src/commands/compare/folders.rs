@@ -40,7 +40,9 @@ impl Folders {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{}: {}", comparison.b, comparison.line());
         }
-        text.extend(self.unreadable.iter().map(|Unreadable { name, why }| format!("{name}: not compared: {why}\n")));
+        text.extend(
+            self.unreadable.iter().map(|Unreadable { name, why }| format!("{name}: not compared: {why}\n")),
+        );
         text.extend(self.only_in_a.iter().map(|name| format!("{name}: only in A\n")));
         text.extend(self.only_in_b.iter().map(|name| format!("{name}: only in B\n")));
         if !self.not_compared.is_empty() {
@@ -97,7 +99,10 @@ impl Listed {
     fn collect(&mut self, root: &Path, within: &Path, above: &mut Vec<PathBuf>) -> io::Result<()> {
         let here = fs::canonicalize(root.join(within))?;
         if above.contains(&here) {
-            return Err(io::Error::other(format!("the link `{}` leads back to a folder above it", shown(within))));
+            return Err(io::Error::other(format!(
+                "the link `{}` leads back to a folder above it",
+                shown(within)
+            )));
         }
         above.push(here);
         for entry in fs::read_dir(root.join(within))? {

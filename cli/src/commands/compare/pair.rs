@@ -153,7 +153,8 @@ impl Found {
 impl Comparison {
     /// The comparison in one line.
     pub(super) fn line(&self) -> String {
-        let moving = self.animation.as_ref().map_or(String::new(), |animation| format!("{}: ", animation.line()));
+        let moving =
+            self.animation.as_ref().map_or(String::new(), |animation| format!("{}: ", animation.line()));
         if self.size_a != self.size_b {
             let ([aw, ah], [bw, bh]) = (self.size_a, self.size_b);
             return format!("{moving}{aw} x {ah} against {bw} x {bh} pixels");
@@ -173,8 +174,10 @@ impl Comparison {
         };
         let counts: Vec<_> =
             self.histogram.iter().map(|(magnitude, count)| format!("{magnitude}:{count}")).collect();
-        let moving =
-            self.animation.as_ref().map_or(String::new(), |animation| format!("animation  {}\n", animation.line()));
+        let moving = self
+            .animation
+            .as_ref()
+            .map_or(String::new(), |animation| format!("animation  {}\n", animation.line()));
         format!(
             "size       {size}\n{moving}differing  {} of {} pixels\nmax        {}\nrmse       {}\nhistogram  {}\n",
             self.differing,

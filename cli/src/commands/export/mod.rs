@@ -99,7 +99,11 @@ fn add(motion: &mut Motion, frames: &Frames, simulation: &Simulation, scene: &Sc
     let Some(cloth) = Part::cloth(scene, simulation.positions()).filter(|_| frames.0.contains(&frame)) else {
         return;
     };
-    #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "glTF has times of 32 bits")]
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        reason = "glTF has times of 32 bits"
+    )]
     let time = ((frame - frames.0.start) as f64 / scene.sim.fps) as f32;
     motion.times.push(time);
     motion.frames.push(Shape { positions: cloth.positions, normals: cloth.normals });
@@ -151,13 +155,20 @@ impl Args {
         parts
     }
 
-    fn report(&self, simulation: &Simulation, parts: &[Part<'_>], frames: u64, session: &Session) -> Result<()> {
+    fn report(
+        &self,
+        simulation: &Simulation,
+        parts: &[Part<'_>],
+        frames: u64,
+        session: &Session,
+    ) -> Result<()> {
         let (frame, time) = (simulation.frame(), simulation.time());
         let points = parts.iter().map(|part| part.positions.len()).sum();
         let triangles = parts.iter().map(|part| part.triangles.len()).sum();
         let mesh = self.mesh.display().to_string();
         let several = if frames > 1 { format!("{frames} frames, the last is ") } else { String::new() };
-        let line = format!("{mesh}: {points} points, {triangles} triangles, {several}frame {frame}, {time} s");
+        let line =
+            format!("{mesh}: {points} points, {triangles} triangles, {several}frame {frame}, {time} s");
         let frames = usize::try_from(frames).unwrap_or(usize::MAX);
         session.report(&Summary { mesh, frame, time, points, triangles, frames }, &line)
     }

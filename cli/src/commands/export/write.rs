@@ -107,7 +107,8 @@ impl Writer<'_> {
     fn write_textures(&self, library: &Path, parts: &[Part<'_>]) -> Result<()> {
         for part in parts {
             let needs = Needs::of(part.material.shader);
-            let read = [(needs.texture, &part.material.texture), (needs.height_map, &part.material.height_map)];
+            let read =
+                [(needs.texture, &part.material.texture), (needs.height_map, &part.material.height_map)];
             for (_, name) in read.into_iter().filter(|(reads, _)| *reads) {
                 atomic::write(&library.with_file_name(format!("{name}.png")), &self.texture(name)?)?;
             }
@@ -131,7 +132,10 @@ impl Writer<'_> {
         let left = pattern.files().into_iter().filter(|(number, _)| *number >= count).count();
         if left > 0 {
             session.ui.caution(
-                &format!("{left} numbered files from {} on are of an earlier run", pattern.path(count).display()),
+                &format!(
+                    "{left} numbered files from {} on are of an earlier run",
+                    pattern.path(count).display()
+                ),
                 "remove them, or programs that read all files mix both",
             );
         }

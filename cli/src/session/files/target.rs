@@ -74,7 +74,8 @@ fn is_folder(path: &Path) -> Error {
 /// The error of a temporary file that cannot be made in the system's folder for them.
 pub(crate) fn no_temporary(cause: &io::Error) -> Error {
     let folder = std::env::temp_dir();
-    let error = Error::new(Kind::Io, format!("cannot make a temporary file in `{}`: {cause}", folder.display()));
+    let error =
+        Error::new(Kind::Io, format!("cannot make a temporary file in `{}`: {cause}", folder.display()));
     error.with_help("set TMPDIR to a folder that exists and can be written to")
 }
 

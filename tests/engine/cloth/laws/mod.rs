@@ -7,6 +7,7 @@
 mod conservation;
 mod falling;
 mod one_spring;
+mod strip;
 mod vibration;
 
 use crate::scenes;

@@ -84,7 +84,8 @@ impl<'a> Device<'a> {
     pub(crate) fn prepare(&mut self, object: &Object<'_>) {
         let material = object.material;
         if !self.programs.iter().any(|(shader, _)| *shader == material.shader) {
-            self.programs.push((material.shader, Programs::compile(self.gl, material.shader, self.qualifier)));
+            self.programs
+                .push((material.shader, Programs::compile(self.gl, material.shader, self.qualifier)));
         }
         for name in [&material.texture, &material.height_map] {
             if self.texture(name).is_none() {

@@ -26,7 +26,8 @@ impl Programs {
             _ => "default.vert".to_owned(),
         };
         let fragment = format!("{name}.frag");
-        let [vertex_text, fragment_text] = [&vertex, &fragment].map(|name| qualified(&source(name), qualifier));
+        let [vertex_text, fragment_text] =
+            [&vertex, &fragment].map(|name| qualified(&source(name), qualifier));
         let vertex = (vertex.as_str(), vertex_text);
         let color = link(gl, &vertex, &(&fragment, fragment_text));
         let id = link(gl, &vertex, &("ids", ID_FRAGMENT.to_owned()));

@@ -39,8 +39,11 @@ fn faces(scene: &Scene, objects: &[Object<'_>]) -> Vec<[u8; 3]> {
         // Nothing but the mirror.
         [u.u_ka, u.u_kd, u.u_ks, u.u_km] = [0.0, 0.0, 0.0, 1.0];
         u.u_color = [0.0; 3];
-        let height_map =
-            height_map.as_ref().map(|texture| Sampler2d { texture, filter: scene.render.filter, wrap_v: object.wrap_v() });
+        let height_map = height_map.as_ref().map(|texture| Sampler2d {
+            texture,
+            filter: scene.render.filter,
+            wrap_v: object.wrap_v(),
+        });
         match (object.material.shader, height_map) {
             (Shader::Mirror, _) => {
                 call(object, mirror::vertex(&u), mirror::Fragment { u, u_texture_cubemap: cube })

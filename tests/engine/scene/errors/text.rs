@@ -13,7 +13,12 @@ fn text_that_is_not_json_is_refused_where_it_goes_wrong() {
         ("", 1, 1, "the file is empty"),
         (" \n ", 1, 1, "the file is empty"),
         ("\u{feff}", 1, 1, "the file is empty"),
-        ("\u{feff}{\n} x", 2, 3, "nothing may follow: a scene ends with its closing brace, and a list stands in brackets"),
+        (
+            "\u{feff}{\n} x",
+            2,
+            3,
+            "nothing may follow: a scene ends with its closing brace, and a list stands in brackets",
+        ),
         ("{\"sim\": {}", 1, 1, "this object is never closed"),
         ("{\"sim\": [1", 1, 9, "this list is never closed"),
         (

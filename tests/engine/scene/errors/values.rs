@@ -182,7 +182,7 @@ fn a_key_of_another_object_is_shown_where_it_belongs() {
         // The place of one object is not what is meant by a place in another.
         (
             "camera.position=[0,0,0]",
-            "the keys here are target, distance, polar, azimuth, hfov, vfov, near, far",
+            "the keys here are target, distance, polar, azimuth, hfov, vfov, fit, near, far",
         ),
         ("light.size=[1,1]", "the keys here are position, intensity, color"),
         // A slip of the key that is there comes first.
