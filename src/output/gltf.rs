@@ -265,7 +265,8 @@ mod tests {
         let shape = |x: f64| Shape { positions: vec![[x, 0.0, 0.0]; 3], normals: vec![[0.0, 1.0, 0.0]; 3] };
         let motion = Motion { times: vec![0.0, 0.5, 1.0], frames: [0.0, 1.0, 3.0].map(shape).to_vec() };
         let mesh = part(3, &[[0, 1, 2]], &material);
-        let found = document(&encode(&[mesh.clone()], Some(&motion), |_| Ok(Vec::new())).unwrap());
+        let found =
+            document(&encode(std::slice::from_ref(&mesh), Some(&motion), |_| Ok(Vec::new())).unwrap());
         let targets = found["meshes"][0]["primitives"][0]["targets"].as_array().unwrap();
         let moved = |k: usize| {
             let accessor = targets[k]["POSITION"].as_u64().unwrap();

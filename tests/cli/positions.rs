@@ -94,13 +94,13 @@ fn mistakes_that_no_scene_can_express_are_named() {
     let thick = HANGING.replace("0.0095", "0.055");
     // A little more than the distance of neighbours.
     let close = HANGING.replace("0.0095", "0.0502");
-    for (text, fault, name) in [
-        (HANGING, Fault::KeptForces, "forces that are not set to 0"),
-        (&thick, Fault::PushBoth, "pushes both points of each pair by the whole distance"),
-        (&close, Fault::WholePush, "not divided by the steps of a frame"),
-        (HANGING, Fault::UnnormalisedLimit, "a stretch limit along the vector"),
+    for (text, frames, fault, name) in [
+        (HANGING, 8, Fault::KeptForces, "forces that are not set to 0"),
+        (&thick, 8, Fault::PushBoth, "pushes both points of each pair by the whole distance"),
+        (&close, 4, Fault::WholePush, "not divided by the steps of a frame"),
+        (HANGING, 8, Fault::UnnormalisedLimit, "a stretch limit along the vector"),
     ] {
-        let report = compared(text, raw(&faulty(text, fault, 4)), &[], 1);
+        let report = compared(text, raw(&faulty(text, fault, frames)), &[], 1);
         let verdict = report["verdict"].as_str().expect("a verdict");
         assert!(
             verdict.starts_with("this behaves like the mistake") && verdict.contains(name),

@@ -133,6 +133,8 @@ fn nearest(palette: &[[u8; 3]], color: [u8; 3]) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    #![expect(clippy::cast_possible_truncation, reason = "colours are small")]
+
     use super::*;
 
     /// The mean difference of a channel.

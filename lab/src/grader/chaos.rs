@@ -49,13 +49,16 @@ fn nudged(start: &Points) -> Points {
     Points { x: nudge(0, &start.x), y: nudge(1, &start.y), z: nudge(2, &start.z) }
 }
 
+/// How many points or springs a phase has moved.
+type Moves = fn(&Counters) -> u64;
+
 /// The verdict on a difference that grew out of rounding and is clear at state `k`: up to when the programs agree, and
 /// what was not tested by then.
 pub(super) fn words(case: &Case<'_>, k: usize) -> String {
     let frame = case.frame(k);
     let grew = "this grew out of rounding without a jump, as it does after contact: up to then it is the same method with \
                 its operations in another order";
-    let phases: [(&str, fn(&Counters) -> u64); 3] = [
+    let phases: [(&str, Moves); 3] = [
         ("self-collision", |counters| counters.self_collision_moves),
         ("collision with objects", |counters| counters.object_moves),
         ("the stretch limit", |counters| counters.springs_limited),

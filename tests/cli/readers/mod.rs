@@ -4,6 +4,8 @@
 //! `.ci/install-readers` installs them in `target/readers`. Without them a test says what it did not check; it fails
 //! if `DRAPE_REQUIRE_READERS` is set. Blender (`bpy` from PyPI, 300 MB) is never required.
 
+#![allow(clippy::print_stdout, reason = "a test says what it did not check, and what it measured")]
+
 mod animations;
 mod meshes;
 mod pictures;

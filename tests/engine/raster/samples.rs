@@ -192,7 +192,7 @@ proptest! {
         let window = [0, 1, 2].map(|i| window(vertex(i).clip, CANVAS).map(f64::from));
         let side = |i: usize| [0, 1].map(|k| window[(i + 1) % 3][k] - window[i][k]);
         let area = (side(0)[0] * side(1)[1] - side(0)[1] * side(1)[0]).abs();
-        let longest = (0..3).map(|i| side(i)[0].hypot(side(i)[1])).fold(0.0, f64::max);
+        let longest = (0..3).map(|i| side(i).map(|c| c * c).iter().sum::<f64>().sqrt()).fold(0.0, f64::max);
         let ratio = f64::from(w.into_iter().fold(0.0, f32::max) / w.into_iter().fold(9.0, f32::min));
         let beyond = ratio * longest / area / 128.0 + 1e-5;
         for [value, ..] in runs.into_inner().unwrap() {

@@ -101,7 +101,7 @@ fn frame(picture: &Picture) -> [f64; 4] {
 
 #[test]
 fn a_camera_that_fits_shows_all_there_is_and_little_else() {
-    for (scene, frames) in [("sphere", 60), ("pinned2", 40), ("selfCollision", 0)] {
+    for (scene, frames) in [("sphere", 60), ("pinned2", 40), ("pinned4", 40)] {
         for (polar, size) in [(90, "[200,160]"), (35, "[100,200]"), (0, "[300,100]"), (140, "[128,128]")] {
             let path = crate::repository::path("scenes").join(format!("{scene}.json"));
             let sets = [

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::pair::Comparison;
 use super::reel::ENDINGS;
-use super::{shown, verdict};
+use super::verdict::{shown, verdict};
 use drape::error::{Error, Kind, Result};
 
 /// How the pictures of two folders differ.

@@ -1,12 +1,13 @@
 //! `drape compare`: how two pictures or animations, or those of two folders, differ.
 
+mod verdict;
 mod reel;
 mod mask;
 mod pair;
 mod folders;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -19,6 +20,7 @@ use drape_lab::page::{self, comparison::Row};
 use folders::{Folders, Listed, Unreadable};
 use mask::Mask;
 use pair::{Comparison, Rules};
+use verdict::{shown, verdict};
 
 /// The arguments of `compare`.
 #[derive(clap::Args)]
@@ -126,15 +128,7 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
     folders.verdict()
 }
 
-fn verdict(same: bool, message: impl Fn() -> String) -> Result<()> {
-    if same { Ok(()) } else { Err(Error::new(Kind::Difference, message())) }
-}
-
 fn row(comparison: &Comparison, pictures: &[Pixels; 2]) -> Result<String> {
     let [expected, actual] = pictures;
     Row { title: &comparison.b, verdict: &comparison.line(), pictures: [expected, actual] }.html()
-}
-
-fn shown(path: impl AsRef<Path>) -> String {
-    path.as_ref().display().to_string()
 }

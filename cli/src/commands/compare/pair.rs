@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::mask::Mask;
 use super::reel::{Reel, Shown};
+use super::verdict::shown;
 use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, Difference};
 use drape::output::png::Pixels;
@@ -95,7 +96,7 @@ pub(super) fn compare(a: &Path, b: &Path, rules: &Rules<'_>) -> Result<(Comparis
             _ => {}
         }
     }
-    for (path, _) in [a, b].iter().zip(counts).filter(|(_, count)| *count == 0) {
+    if let Some((path, _)) = [a, b].iter().zip(counts).find(|(_, count)| *count == 0) {
         return Err(Error::new(Kind::Io, format!("cannot read `{}`: it has no picture", path.display())));
     }
     let differing_pictures = found.differences.iter().filter(|difference| difference.differing() > 0).count();
@@ -110,8 +111,8 @@ pub(super) fn compare(a: &Path, b: &Path, rules: &Rules<'_>) -> Result<(Comparis
     let pictures = found.kept.unwrap_or_else(|| [empty(), empty()]);
     let [size_a, size_b] = [0, 1].map(|i: usize| [pictures[i].width, pictures[i].height]);
     let comparison = Comparison {
-        a: super::shown(a),
-        b: super::shown(b),
+        a: shown(a),
+        b: shown(b),
         size_a,
         size_b,
         pixels: all.pixels(),

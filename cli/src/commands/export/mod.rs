@@ -13,7 +13,6 @@ use crate::args::scene::{Moment, SceneArgs};
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
-use crate::session::files::outputs;
 use drape::error::{Error, Kind, Result};
 use drape::output::gltf::{Motion, Shape};
 use drape::output::part::Part;
@@ -63,7 +62,8 @@ struct Summary {
 /// Simulates and writes the meshes.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
-    if scene.cloth.is_none() && !(args.objects && !scene.colliders.is_empty()) {
+    let others = args.objects && !scene.colliders.is_empty();
+    if scene.cloth.is_none() && !others {
         let nothing = "the scene has no cloth, so there is no mesh to export";
         return Err(Error::new(Kind::Nothing, nothing).with_help("--objects exports the other objects"));
     }
@@ -172,9 +172,4 @@ impl Args {
         let frames = usize::try_from(frames).unwrap_or(usize::MAX);
         session.report(&Summary { mesh, frame, time, points, triangles, frames }, &line)
     }
-}
-
-/// The files that a path stands for are made by [`Writer`]; their folder is made too.
-fn make_folder(pattern: &Pattern) -> Result<()> {
-    outputs::make_folder(pattern.folder())
 }

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::format::Format;
-use super::make_folder;
 use crate::animation::pattern::Pattern;
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -76,7 +75,7 @@ impl Writer<'_> {
     /// Writes numbered file `k`.
     pub(super) fn frame(&self, k: u64, parts: &[Part<'_>]) -> Result<()> {
         let Some(pattern) = &self.pattern else { return Ok(()) };
-        make_folder(pattern)?;
+        outputs::make_folder(pattern.folder())?;
         self.write(&pattern.path(k), parts)
     }
 
