@@ -9,8 +9,10 @@
 #![forbid(unsafe_code)]
 
 pub mod csv;
+pub mod run;
 pub mod store;
 pub mod page;
+pub mod sweep;
 pub mod study;
 pub mod stability_map;
 pub mod gallery;

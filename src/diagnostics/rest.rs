@@ -50,6 +50,16 @@ impl RestWatch {
         Ok(Self { fps: sim.fps, limit, x: x.clone(), moved: Points::zeros(x.len())?, frames: 0 })
     }
 
+    /// A watch over a cloth that is in motion: at `x`, from `before` at the start of the frame.
+    ///
+    /// # Errors
+    /// As [`RestWatch::new`].
+    pub fn in_motion(cloth: &Cloth, sim: &Sim, before: &Points, x: &Points) -> Result<Self> {
+        let mut watch = Self::new(cloth, sim, before)?;
+        watch.look(x);
+        Ok(watch)
+    }
+
     /// The most that a cloth at rest does.
     pub fn limit(&self) -> Motion {
         self.limit

@@ -5,7 +5,7 @@ use std::ops::{Index, IndexMut};
 use serde::{Serialize, Serializer};
 
 use super::Material;
-use super::json::key::Row;
+use super::json::key::{Listed, Row};
 use super::json::keys::keys;
 use super::json::list::{Counts, Direction, Vector};
 use super::json::object::Object;
@@ -94,6 +94,13 @@ macro_rules! colliders {
                 }
             }
 
+            /// Adds every key of its own with its value, below `path`.
+            pub(super) fn list(&self, path: &str, list: &mut Vec<(String, serde_json::Value)>) {
+                match self {
+                    $(Self::$kind(collider) => collider.list(path, list),)*
+                }
+            }
+
             /// Whether the cloth meets both alike: all but what pictures show is equal.
             pub fn collides_like(&self, other: &Self) -> bool {
                 match (self, other) {
@@ -174,6 +181,13 @@ impl<T: Copy> PerKind<T> {
     /// Each value with the plural of its kind's name.
     pub fn entries(self) -> impl Iterator<Item = (&'static str, T)> {
         ColliderKind::ALL.iter().map(move |&kind| (kind.plural(), self[kind]))
+    }
+}
+
+impl<T> PerKind<T> {
+    /// The values in the order of the kinds, to be changed.
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.0.iter_mut()
     }
 }
 

@@ -15,6 +15,7 @@ mod keys;
 mod light;
 mod load;
 mod material;
+mod motion;
 mod needs;
 mod set;
 mod plan;
@@ -22,6 +23,7 @@ mod render;
 mod shader;
 mod sim;
 mod stock;
+pub mod sweep;
 mod validate;
 
 use json::key::Row;

@@ -8,6 +8,7 @@ mod ledger_recorder;
 mod observer;
 mod observers;
 mod phase;
+pub mod snapshot;
 mod state;
 mod step;
 mod timing;

@@ -22,6 +22,7 @@ mod scene;
 #[path = "../support/scenes/mod.rs"]
 mod scenes;
 mod shader;
+mod states;
 mod support;
 #[path = "../../examples/textbook_cloth.rs"]
 mod textbook_cloth;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::args::scene::{Moment, SceneArgs};
+use crate::args::state::StateArgs;
 use crate::run::advance::advance_until;
 use crate::run::start::start;
 use crate::session::Session;
@@ -26,6 +27,8 @@ pub(crate) struct Args {
     mesh: PathBuf,
     #[command(flatten)]
     moment: Moment,
+    #[command(flatten)]
+    state: StateArgs,
 }
 
 /// The summary.
@@ -43,12 +46,16 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let until = args.moment.until(&scene);
     outputs::check_ending(&args.mesh, "obj")?;
-    outputs::check(&args.scene.inputs(), [(args.mesh.as_path(), Content::Text)])?;
+    let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
+    outputs::check(&inputs, [(args.mesh.as_path(), Content::Text)].into_iter().chain(args.state.outputs()))?;
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no mesh to export"));
     };
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    args.state.restore(&mut simulation, &scene, until.frames)?;
+    let mut saving = args.state.saving(&scene);
+    let ended = advance_until(&mut simulation, &scene, until, session, |now| saving.after_frame(now))?;
+    saving.finish(&simulation)?;
     let points = simulation.positions();
     let mesh = Mesh::cloth(cloth, points, Needs { normal: true, uv: true, ..Needs::default() });
     // In f64, as simulated: the mesh that is drawn has f32.

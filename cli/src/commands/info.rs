@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Item, PerKind, Scene, plan};
+use drape_lab::run::stability::largest_ks;
 
 /// The arguments of `info`.
 #[derive(clap::Args)]

@@ -12,3 +12,4 @@ pub(crate) mod render;
 pub(crate) mod simulate;
 pub(crate) mod stability;
 pub(crate) mod study;
+pub(crate) mod sweep;

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{Moment, SceneArgs};
+use crate::args::state::StateArgs;
 use crate::run::advance::advance_until;
 use crate::run::bench;
 use crate::run::start::start;
@@ -33,6 +34,8 @@ pub(crate) struct Args {
     picture: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) moment: Moment,
+    #[command(flatten)]
+    state: StateArgs,
     #[command(flatten)]
     pub(crate) render: RenderArgs,
     /// Write the depth of each pixel to this file: f32 little-endian, top row first (`-` for standard output)
@@ -71,7 +74,10 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     // All inputs are read before anything is simulated.
     let renderer = Renderer::new(&scene, &args.render.textures())?;
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    args.state.restore(&mut simulation, &scene, until.frames)?;
+    let mut saving = args.state.saving(&scene);
+    let ended = advance_until(&mut simulation, &scene, until, session, |now| saving.after_frame(now))?;
+    saving.finish(&simulation)?;
     let options = args.render.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
@@ -113,8 +119,8 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
-        outputs::check(&inputs, all)
+        let inputs = [self.scene.inputs(), self.render.inputs(scene), self.state.inputs().collect()].concat();
+        outputs::check(&inputs, all.chain(self.state.outputs()))
     }
 
     fn fills_stdout(&self) -> bool {

@@ -7,9 +7,9 @@ use serde::Serialize;
 
 use crate::args::flag::seconds;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
+use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
-use crate::run::table::Table;
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -21,6 +21,7 @@ use drape::error::{Error, Kind, Result};
 use drape::output::raw;
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
+use drape_lab::run::table::Table;
 
 /// The arguments of `simulate`.
 #[derive(clap::Args)]
@@ -53,8 +54,10 @@ pub(crate) struct Args {
     #[arg(long)]
     hash: bool,
     /// Print the time per step as JSON instead of the summary
-    #[arg(long, conflicts_with = "hash")]
+    #[arg(long, conflicts_with_all = ["hash", "from_state"])]
     bench: bool,
+    #[command(flatten)]
+    state: StateArgs,
     #[command(flatten)]
     stability: StabilityArgs,
 }
@@ -102,12 +105,16 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if table.is_some() || args.ledger {
         simulation.record_ledger()?;
     }
+    args.state.restore(&mut simulation, &scene, until.frames)?;
+    let mut saving = args.state.saving(&scene);
     let mut hashes = Vec::new();
     let ended = advance_until(&mut simulation, &scene, until, session, |now| {
         table.iter_mut().for_each(|table| table.row(now));
+        saving.after_frame(now)?;
         args.take_hash(now, session, &mut hashes)
     });
     let ended = args.write_failed(table.as_ref(), ended)?;
+    saving.finish(&simulation)?;
     args.write_positions(&simulation)?;
     args.write_table(table.as_ref())?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum());
@@ -130,7 +137,8 @@ impl Args {
         outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
         let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));
         let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
-        outputs::check(&self.scene.inputs(), positions.chain(csv))
+        let inputs: Vec<PathBuf> = self.scene.inputs().into_iter().chain(self.state.inputs()).collect();
+        outputs::check(&inputs, positions.chain(csv).chain(self.state.outputs()))
     }
 
     fn fills_stdout(&self) -> bool {

@@ -52,11 +52,16 @@ pub(crate) fn advance_until(
         let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
         return Ok(Ended { elapsed, unsettled: None });
     };
-    let mut watch = RestWatch::new(cloth, &scene.sim, simulation.positions())?;
+    let first = simulation.frame();
+    let now = simulation.positions();
+    let mut watch = match first {
+        0 => RestWatch::new(cloth, &scene.sim, now)?,
+        _ => RestWatch::in_motion(cloth, &scene.sim, simulation.positions_at_frame_start(), now)?,
+    };
     let mut motion = None;
     let elapsed = advance_while(simulation, until.frames, session, |simulation| {
         each(simulation)?;
-        if simulation.frame() > 0 {
+        if simulation.frame() > first {
             motion = Some(watch.look(simulation.positions()));
         }
         Ok(!motion.is_some_and(|motion| watch.is_rest(motion)))
@@ -105,7 +110,7 @@ fn advance_while(
     mut each: impl FnMut(&Simulation) -> Result<bool>,
 ) -> Result<Duration> {
     let started = Instant::now();
-    let mut progress = Progress::new(&session.ui, "simulating", frames);
+    let mut progress = Progress::starting_at(&session.ui, "simulating", frames, simulation.frame());
     let mut continues = each(simulation)?;
     while continues && simulation.frame() < frames {
         session.signals.check()?;
