@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 
 pub mod csv;
+pub mod npy;
 pub mod run;
 pub mod store;
 pub mod page;

@@ -27,8 +27,11 @@ mod readme;
 mod repository;
 mod results;
 mod scratch;
+mod sequences;
 mod signals;
 mod simulating;
+mod states;
+mod sweep;
 #[path = "../../examples/textbook_cloth.rs"]
 mod textbook_cloth;
 mod texts;

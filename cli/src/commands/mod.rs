@@ -8,6 +8,7 @@ pub(crate) mod export;
 pub(crate) mod gallery;
 pub(crate) mod info;
 pub(crate) mod meta;
+mod positions;
 pub(crate) mod render;
 pub(crate) mod simulate;
 pub(crate) mod stability;

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::positions::PositionsArgs;
 use crate::args::flag::seconds;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
@@ -18,7 +19,6 @@ use drape::cloth::{Counters, springs};
 use drape::diagnostics::energy::Energy;
 use drape::diagnostics::ledger::Ledger;
 use drape::error::{Error, Kind, Result};
-use drape::output::raw;
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
 use drape_lab::run::table::Table;
@@ -38,10 +38,8 @@ pub(crate) struct Args {
     /// by then, the results are written and the exit code is 1
     #[arg(long)]
     until_rest: bool,
-    /// Write the last positions to this file: x y z of each point, row by row, f64 little-endian (`-` for standard
-    /// output)
-    #[arg(long, value_name = "FILE")]
-    positions: Option<PathBuf>,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// Write a CSV table to this file, a row for each frame: time, energies, the energy that each phase added or
     /// removed, largest stretch, smallest distance, largest speed (`-` for standard output). A run that blows up or
     /// does not come to rest leaves the rows up to its last good frame
@@ -110,12 +108,13 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut hashes = Vec::new();
     let ended = advance_until(&mut simulation, &scene, until, session, |now| {
         table.iter_mut().for_each(|table| table.row(now));
+        args.positions.after_frame(&scene, now)?;
         saving.after_frame(now)?;
         args.take_hash(now, session, &mut hashes)
     });
     let ended = args.write_failed(table.as_ref(), ended)?;
     saving.finish(&simulation)?;
-    args.write_positions(&simulation)?;
+    args.positions.finish(&scene, &simulation)?;
     args.write_table(table.as_ref())?;
     let springs = scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum());
     if args.bench {
@@ -135,14 +134,15 @@ impl Args {
 
     fn check_outputs(&self, session: &Session) -> Result<()> {
         outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
-        let positions = self.positions.iter().map(|path| (path.as_path(), Content::Binary));
+        let positions = self.positions.output()?;
+        let positions = positions.iter().map(|(path, content)| (path.as_path(), *content));
         let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
         let inputs: Vec<PathBuf> = self.scene.inputs().into_iter().chain(self.state.inputs()).collect();
         outputs::check(&inputs, positions.chain(csv).chain(self.state.outputs()))
     }
 
     fn fills_stdout(&self) -> bool {
-        outputs::takes_stdout(&[&self.positions, &self.csv])
+        outputs::takes_stdout(&[&self.positions.positions, &self.csv])
     }
 
     /// Prints the hash of a frame, or stores it if all are printed as one JSON object.
@@ -170,12 +170,6 @@ impl Args {
             let _ = self.write_table(table);
         }
         ended
-    }
-
-    fn write_positions(&self, simulation: &Simulation) -> Result<()> {
-        let points = simulation.positions();
-        let bytes = || raw::points(&points.x, &points.y, &points.z);
-        self.positions.as_ref().map_or(Ok(()), |path| atomic::write(path, &bytes()))
     }
 }
 

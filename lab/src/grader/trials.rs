@@ -7,6 +7,9 @@ use super::case::{Case, Ours};
 use super::mistakes::Mistake;
 use drape::error::{Kind, Result};
 
+/// Hears of every frame that is simulated, from several threads; an error that it returns ends the search.
+pub type Watch<'a> = &'a (dyn Fn() -> Result<()> + Sync);
+
 /// The most states after the first clear difference that a mistake is compared with. Later ones are chaotic.
 pub(super) const WINDOW: usize = 10;
 
@@ -40,16 +43,11 @@ impl Tried {
 }
 
 /// Runs every mistake over some states from `k` on; the one that comes nearest to theirs is the first. `watch`
-/// is called with 0 after every frame and with 1 after every mistake.
+/// is called after every frame.
 ///
 /// # Errors
 /// Those of the simulations and of `watch`.
-pub(super) fn run(
-    case: &Case<'_>,
-    mistakes: &[Mistake],
-    k: usize,
-    watch: &(dyn Fn(u64) -> Result<()> + Sync),
-) -> Result<Vec<Tried>> {
+pub(super) fn run(case: &Case<'_>, mistakes: &[Mistake], k: usize, watch: Watch<'_>) -> Result<Vec<Tried>> {
     let ahead = case.theirs[k..].iter().take(WINDOW);
     let finite = ahead.take_while(|state| state.as_flattened().iter().all(|x| x.is_finite()));
     let window = k..k + finite.count();
@@ -58,8 +56,7 @@ pub(super) fn run(
     let tried = mistakes.par_iter().map(|mistake| {
         let states = mistake
             .simulation(case.start.as_ref())
-            .and_then(|simulation| Ours::simulate(simulation, case.frame(k), window.len(), |_| watch(0)));
-        watch(1)?;
+            .and_then(|simulation| Ours::simulate(simulation, case.frame(k), window.len(), |_| watch()));
         let left = match states {
             // A mistake that is unstable is not the one that was made.
             Err(error) if error.kind == Kind::Unstable => f64::MAX,

@@ -3,8 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A hash of all that a result depends on: FNV-1a, 128 bits. Among a million results the chance that two have the same
-/// is 1e-27.
+use drape::math::splitmix64;
+
+/// A hash of all that a result depends on: FNV-1a, 128 bits, whose halves are mixed so that similar inputs have unlike
+/// first digits. Among a million results the chance that two have the same is 1e-27.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Address(u128);
 
@@ -16,8 +18,18 @@ impl Address {
     /// The address of a result of `kind` that depends on `inputs` and on the version of the program.
     pub fn of(kind: &str, inputs: &str) -> Self {
         let text = format!("{} {kind} {inputs}", env!("CARGO_PKG_VERSION"));
-        Self(text.bytes().fold(OFFSET, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME)))
+        Self(mixed(text.bytes().fold(OFFSET, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))))
     }
+}
+
+/// Another number for each number (a Feistel network of three rounds).
+fn mixed(hash: u128) -> u128 {
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves")]
+    let (mut high, mut low) = ((hash >> 64) as u64, hash as u64);
+    low ^= splitmix64(high);
+    high ^= splitmix64(low);
+    low ^= splitmix64(high);
+    u128::from(high) << 64 | u128::from(low)
 }
 
 impl fmt::Display for Address {
@@ -38,6 +50,16 @@ impl FromStr for Address {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn similar_inputs_are_spread_over_the_first_digits() {
+        let mut counts = [0_usize; 256];
+        for n in 0..25_600 {
+            counts[usize::from_str_radix(&Address::of("case", &n.to_string()).to_string()[..2], 16)
+                .unwrap()] += 1;
+        }
+        assert!(counts.iter().all(|count| (50..150).contains(count)), "{counts:?}");
+    }
 
     #[test]
     fn addresses_differ_and_read_back() {

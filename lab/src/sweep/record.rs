@@ -44,6 +44,17 @@ impl Record {
         Self { exit_code, message: error.message.clone(), values: BTreeMap::new(), picture: None }
     }
 
+    /// The end of the case in a word.
+    pub fn outcome(&self) -> &'static str {
+        match self.exit_code {
+            0 => "ok",
+            3 => "refused",
+            5 => "unstable",
+            6 => "out of time",
+            _ => "failed",
+        }
+    }
+
     /// The measure called `name`.
     pub fn value(&self, name: &str) -> &Measured {
         self.values.get(name).unwrap_or(&Measured::Nothing)

@@ -36,23 +36,12 @@ pub(super) fn run(plan: &Plan, case: &Case, each_frame: &dyn Fn() -> Result<()>)
     let (mut record, picture) = measured.unwrap_or_else(|error| (Record::failed(&error), None));
     let asked = |name: &str| plan.spec.measure.iter().any(|measure| measure == name);
     if asked(OUTCOME) {
-        record.values.insert(OUTCOME.into(), Measured::Text(outcome(record.exit_code).into()));
+        record.values.insert(OUTCOME.into(), Measured::Text(record.outcome().into()));
     }
     if asked(WALL_MS) {
         record.values.insert(WALL_MS.into(), (started.elapsed().as_secs_f64() * 1e3).into());
     }
     Ok((record, picture))
-}
-
-/// The end of a case in a word.
-fn outcome(exit_code: u8) -> &'static str {
-    match exit_code {
-        0 => "ok",
-        3 => "refused",
-        5 => "unstable",
-        6 => "out of time",
-        _ => "failed",
-    }
 }
 
 /// The error of a case that takes too long. It does not say how far the case came, which depends on the machine.

@@ -41,7 +41,12 @@ struct Worker<'a> {
 ///
 /// # Errors
 /// [`drape::error::Kind::Io`] when cases cannot be read or records not be written; those of `watch`.
-pub fn work(plan: &Plan, takes: impl Fn(u64) -> bool + Send + Sync, seed: u64, watch: Watch<'_>) -> Result<()> {
+pub fn work(
+    plan: &Plan,
+    takes: impl Fn(u64) -> bool + Send + Sync,
+    seed: u64,
+    watch: Watch<'_>,
+) -> Result<()> {
     let worker = Worker { plan, watch, claimed: Mutex::default(), failed: Mutex::default() };
     let cases = plan.cases()?.filter(|case| case.as_ref().map_or(true, |case| takes(case.number)));
     worker.share(cases, true);

@@ -5,40 +5,20 @@ mod plots;
 mod rows;
 mod script;
 mod sheet;
+mod shown;
 mod table;
 
 use std::io::Write;
 
-use super::case::Case;
 use super::plan::Plan;
-use super::record::Record;
 use super::work::Event;
 use crate::store::Entry;
 use drape::error::{Error, Kind, Result};
 use plots::Plots;
 use rows::Rows;
+use shown::{MOST_SHOWN, Shown};
 
-/// Most cases that the page shows one by one: as many as a browser scrolls and sorts at once. Plots are over all.
-const MOST_SHOWN: u64 = 1000;
-
-/// What a report counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// Cases of the plan.
-    pub cases: u64,
-    /// Cases that ended in an error.
-    pub failed: u64,
-    /// Cases without a result.
-    pub missing: u64,
-}
-
-/// A case with what the page shows of it.
-struct Shown {
-    case: Case,
-    record: Option<Record>,
-    /// The bytes of its picture.
-    picture: Option<Vec<u8>>,
-}
+pub use shown::Counts;
 
 /// Writes the rows of all cases of `plan` as CSV and as JSON, and returns the page and what was counted. Damaged
 /// records count as missing and are told to `watch`.

@@ -1,10 +1,11 @@
 //! The page of a sweep: one file, nothing fetched.
 
+use super::plots::Plots;
 use super::script::{SCRIPT, STYLE};
-use super::{Counts, MOST_SHOWN, Shown, sheet, table};
-use crate::page::{END, escape, head};
+use super::shown::{Counts, MOST_SHOWN, Shown};
+use super::{sheet, table};
+use crate::page::{END, escape, head, short};
 use crate::sweep::plan::Plan;
-use crate::sweep::report::plots::Plots;
 use drape::scene::sweep::{Axis, Spec};
 
 /// The whole page.
@@ -55,7 +56,8 @@ fn summary(spec: &Spec, counts: Counts) -> String {
 /// A key with its values, or with the first and last where there are many.
 fn values(axis: &Axis) -> String {
     const MOST_TOLD: usize = 12;
-    let text = |value: &serde_json::Value| escape(value.to_string().trim_matches('"'));
+    let word = |value: &serde_json::Value| value.to_string().trim_matches('"').to_owned();
+    let text = |value: &serde_json::Value| escape(&value.as_f64().map_or_else(|| word(value), short));
     let told = match axis.values.as_slice() {
         [first, .., last] if axis.values.len() > MOST_TOLD => {
             format!("{} values from {} to {}", axis.values.len(), text(first), text(last))

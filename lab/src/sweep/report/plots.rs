@@ -5,6 +5,7 @@ use crate::page::plot::{Marker, Plot, Style};
 use crate::page::short;
 use crate::sweep::measures::unit;
 use crate::sweep::record::Record;
+use drape::math::ln;
 use drape::scene::sweep::{self, Spec};
 
 /// Most values of a parameter along a plot, and most lines in one.
@@ -145,7 +146,7 @@ fn curves(name: &str, along: &sweep::Axis, lines: Option<&sweep::Axis>, ranges: 
 
 /// A cell for each pair of values, the darker the larger the mean; nothing if a parameter is not numbers.
 fn map(name: &str, along: &sweep::Axis, across: &sweep::Axis, ranges: &[Vec<Range>]) -> Option<Plot> {
-    let (x, y) = (edges(&numbers(along)?, along.scale), edges(&numbers(across)?, across.scale));
+    let (x, y) = (edges(&numbers(along)?, scale(along)), edges(&numbers(across)?, scale(across)));
     let means: Vec<f64> = ranges.iter().flatten().filter_map(|range| range.mean()).collect();
     let least = means.iter().copied().fold(f64::INFINITY, f64::min);
     let most = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -170,16 +171,16 @@ fn map(name: &str, along: &sweep::Axis, across: &sweep::Axis, ranges: &[Vec<Rang
 }
 
 /// Around each value, where its cell ends: in the middle to its neighbours. Values may stand in any order.
-fn edges(values: &[f64], scale: sweep::Scale) -> Vec<[f64; 2]> {
+fn edges(values: &[f64], scale: Scale) -> Vec<[f64; 2]> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = |a: f64, b: f64| match scale {
-        sweep::Scale::Linear => 0.5 * (a + b),
-        sweep::Scale::Log => (a * b).sqrt(),
+        Scale::Linear => 0.5 * (a + b),
+        Scale::Log => (a * b).sqrt(),
     };
     let beyond = |at: f64, inside: f64| match scale {
-        sweep::Scale::Linear => at + (at - inside),
-        sweep::Scale::Log => at * at / inside,
+        Scale::Linear => at + (at - inside),
+        Scale::Log => at * at / inside,
     };
     let cell = |value: f64| {
         let place = sorted.iter().position(|&other| other == value).unwrap_or(0);
@@ -192,11 +193,19 @@ fn edges(values: &[f64], scale: sweep::Scale) -> Vec<[f64; 2]> {
     values.iter().map(|&value| cell(value)).collect()
 }
 
+/// The scale of a parameter: that of its range, and of a list the one on which its values are spaced more evenly.
 fn scale(axis: &sweep::Axis) -> Scale {
-    match axis.scale {
-        sweep::Scale::Linear => Scale::Linear,
-        sweep::Scale::Log => Scale::Log,
-    }
+    let mut values = numbers(axis).unwrap_or_default();
+    values.sort_by(f64::total_cmp);
+    let unevenness = |gap: fn(f64, f64) -> f64| {
+        let gaps = values.windows(2).map(|pair| gap(pair[0], pair[1])).filter(|gap| *gap > 0.0);
+        let (least, most) =
+            gaps.fold((f64::INFINITY, 0.0_f64), |(least, most), gap| (least.min(gap), most.max(gap)));
+        most / least
+    };
+    let positive = values.len() > 2 && values.first().is_some_and(|&first| first > 0.0);
+    let geometric = positive && unevenness(|a, b| ln(b / a)) < unevenness(|a, b| b - a);
+    if axis.scale == sweep::Scale::Log || geometric { Scale::Log } else { Scale::Linear }
 }
 
 /// The axis of a parameter, which is along the plot from its least to its largest value.
@@ -230,7 +239,20 @@ mod tests {
 
     #[test]
     fn cells_meet_in_the_middle_in_any_order() {
-        assert_eq!(edges(&[3.0, 1.0, 2.0], sweep::Scale::Linear), [[2.5, 3.5], [0.5, 1.5], [1.5, 2.5]]);
-        assert_eq!(edges(&[4.0, 16.0], sweep::Scale::Log), [[2.0, 8.0], [8.0, 32.0]]);
+        assert_eq!(edges(&[3.0, 1.0, 2.0], Scale::Linear), [[2.5, 3.5], [0.5, 1.5], [1.5, 2.5]]);
+        assert_eq!(edges(&[4.0, 16.0], Scale::Log), [[2.0, 8.0], [8.0, 32.0]]);
+    }
+
+    #[test]
+    fn a_list_has_the_scale_on_which_it_is_even() {
+        let scale = |values: &[f64]| {
+            let values = values.iter().map(|&value| value.into()).collect();
+            scale(&sweep::Axis { path: String::new(), values, scale: sweep::Scale::Linear })
+        };
+        assert_eq!(scale(&[15.0, 500.0, 50.0, 150.0]), Scale::Log);
+        assert_eq!(
+            [scale(&[1.0, 2.0, 3.0]), scale(&[0.0, 1.0, 10.0]), scale(&[1.0, 1000.0])],
+            [Scale::Linear; 3]
+        );
     }
 }

@@ -7,6 +7,7 @@ border-radius:6px;padding:.4rem .8rem}.tally b{font-size:1.3rem;display:block}\
 .sheet{font-size:.85rem}.sheet td{padding:3px;border:0;vertical-align:middle}.sheet th{color:var(--soft);\
 font-weight:normal;border:0;text-align:center}.sheet th[scope=row]{text-align:right}\
 .sheet img{width:8rem;max-width:none;border-radius:4px}.tile{display:block;text-decoration:none}\
+.groups{display:flex;flex-wrap:wrap;gap:0 2.5rem}.groups>div{max-width:100%}.groups h3{margin-bottom:0}\
 .flow{display:flex;flex-wrap:wrap;gap:.6rem}.flow figure{margin:0}\
 .none{width:8rem;min-height:4rem;display:grid;place-items:center;border:1px dashed var(--line);border-radius:4px;\
 color:var(--b);padding:.3rem;text-align:center;white-space:normal}\

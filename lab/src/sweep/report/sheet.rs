@@ -4,41 +4,51 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::Shown;
-use crate::page::{escape, image};
+use super::shown::Shown;
+use crate::page::{escape, image, short};
 use drape::scene::sweep::{Axis, Spec};
 
-/// The sheet: a table over the last two parameters for each combination of the others, or all pictures in a row.
+/// The sheet: a table over the two longest parameters for each combination of the others, or all pictures in a row.
 pub(super) fn html(spec: &Spec, shown: &[Shown]) -> String {
-    match spec.set.as_slice() {
-        [others @ .., down, across] if !spec.zip => {
-            let mut groups: BTreeMap<Vec<usize>, Vec<(&Shown, [usize; 2])>> = BTreeMap::new();
-            for one in shown {
-                let mut places = spec.places(one.case.number);
-                let [across, down] = [places.pop(), places.pop()].map(Option::unwrap_or_default);
-                groups.entry(places).or_default().push((one, [down, across]));
-            }
-            let group = |(places, cases): (&Vec<usize>, &Vec<_>)| {
-                heading(others, places) + &grid(down, across, cases)
-            };
-            groups.iter().map(group).collect()
-        }
-        _ => flow(shown),
+    let Some([down, across]) = longest(spec) else { return flow(shown) };
+    let mut groups: BTreeMap<Vec<usize>, Vec<Placed<'_>>> = BTreeMap::new();
+    for one in shown {
+        let mut places = spec.places(one.case.number);
+        let at = [places[down], places[across]];
+        (places[down], places[across]) = (0, 0);
+        groups.entry(places).or_default().push((one, at));
+    }
+    let group = |(places, cases): (&Vec<usize>, &Vec<Placed<'_>>)| {
+        let heading = heading(spec, places, [down, across]);
+        format!("<div>{heading}{}</div>\n", grid(&spec.set[down], &spec.set[across], cases))
+    };
+    format!("<div class=\"groups\">\n{}</div>\n", groups.iter().map(group).collect::<String>())
+}
+
+/// A case with its row and column.
+type Placed<'a> = (&'a Shown, [usize; 2]);
+
+/// The two parameters with most values, the one with more of them last; nothing if there are not two.
+fn longest(spec: &Spec) -> Option<[usize; 2]> {
+    let mut order: Vec<usize> = (0..spec.set.len()).filter(|_| !spec.zip).collect();
+    order.sort_by_key(|&axis| spec.set[axis].values.len());
+    match order.as_slice() {
+        [.., down, across] => Some([*down, *across]),
+        _ => None,
     }
 }
 
 /// The values of the parameters that are the same in a table.
-fn heading(axes: &[Axis], places: &[usize]) -> String {
-    let value = |(axis, &place): (&Axis, &usize)| {
-        axis.values
-            .get(place)
-            .map_or_else(String::new, |value| format!("{} = {}", escape(&axis.path), text(value)))
+fn heading(spec: &Spec, places: &[usize], without: [usize; 2]) -> String {
+    let axes = spec.set.iter().zip(places).enumerate().filter(|(i, _)| !without.contains(i));
+    let value = |(_, (axis, place)): (usize, (&Axis, &usize))| {
+        format!("{} = {}", escape(&axis.path), at(axis, *place))
     };
-    let values: Vec<String> = axes.iter().zip(places).map(value).collect();
+    let values: Vec<String> = axes.map(value).collect();
     if values.is_empty() { String::new() } else { format!("<h3>{}</h3>\n", values.join(", ")) }
 }
 
-fn grid(down: &Axis, across: &Axis, cases: &[(&Shown, [usize; 2])]) -> String {
+fn grid(down: &Axis, across: &Axis, cases: &[Placed<'_>]) -> String {
     let corner = format!("{} ↓ {} →", escape(&down.path), escape(&across.path));
     let columns: Vec<usize> = present(cases.iter().map(|(_, [_, across])| *across));
     let heads: String =
@@ -75,7 +85,7 @@ fn tile(shown: &Shown) -> String {
     let number = shown.case.number + 1;
     let inside = match (&shown.picture, &shown.record) {
         (Some(png), _) => image(&format!("case {number}: {}", shown.case.sets().join(", ")), png),
-        (None, Some(record)) => format!("<span class=\"none\">exit {}</span>", record.exit_code),
+        (None, Some(record)) => format!("<span class=\"none\">{}</span>", record.outcome()),
         (None, None) => "<span class=\"none\">no result</span>".to_owned(),
     };
     format!("<a class=\"tile\" data-case=\"{number}\" href=\"#case-{number}\">{inside}</a>")
@@ -85,6 +95,7 @@ fn at(axis: &Axis, place: usize) -> String {
     axis.values.get(place).map(text).unwrap_or_default()
 }
 
+/// A value with at most four digits.
 fn text(value: &Value) -> String {
-    escape(value.to_string().trim_matches('"'))
+    escape(&value.as_f64().map_or_else(|| value.to_string().trim_matches('"').to_owned(), short))
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::Shown;
+use super::shown::Shown;
 use crate::page::{escape, short};
 use crate::sweep::measures::needs_ledger;
 use crate::sweep::plan::Plan;
