@@ -66,7 +66,7 @@ fn the_stability_map_shows_a_panel_for_each_density() {
 }
 
 /// What a reader does with the page of a sweep; an error is seen on the console, and success as one more plot.
-const CLICKS: &str = r#"<script>
+const CLICKS: &str = r#"<script>{
 const same = (found, expected) => { if (found !== expected) throw Error(`${found}, not ${expected}`); };
 const order = () => [...document.querySelectorAll('tbody tr')].map(row => row.cells[0].textContent).join();
 const head = name => [...document.querySelectorAll('th button')].find(button => button.textContent === name);
@@ -85,7 +85,7 @@ same(dialog.querySelector('pre').textContent,
   'drape render scene.json case.png --size 40x30 --set cloth.ks=500 --set cloth.density=15 --time 0.1');
 dialog.close();
 document.body.insertAdjacentHTML('beforeend', '<svg width="300" height="9"><g><path d="M0 0h9"/></g></svg>');
-</script></body>"#;
+}</script></body>"#;
 
 #[test]
 fn the_sweep_shows_its_cases_sorts_them_and_opens_one() {

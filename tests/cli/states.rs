@@ -7,10 +7,13 @@ use crate::scratch::Scratch;
 /// What a cloth with a memory of its own needs.
 const BDF2: [&str; 2] = ["--set", "sim.integrator=bdf2"];
 
+fn with<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    [words, &BDF2[..]].concat()
+}
+
 #[test]
 fn every_command_goes_on_from_a_state() {
     let scratch = Scratch::new();
-    let with = |words: &[&str]| [words, &BDF2[..]].concat();
     scratch.succeed(&with(&["simulate", "small.json", "--frames", "7", "--save-state", "seven"]));
     let from = ["--from-state", "seven"];
 

@@ -7,6 +7,7 @@ use drape::scene::{Overrides, Scene, load};
 use drape_lab::stability_map::extremes::{self, Promise};
 use drape_lab::stability_map::outcome::{Outcome, Run, run};
 use drape_lab::stability_map::{Axes, Cell, Column, Map, page, threshold};
+use drape_lab::store::Store;
 use rayon::prelude::*;
 
 fn stock(name: &str, sets: &[&str]) -> Result<Scene> {
@@ -80,7 +81,15 @@ fn cells_break_below_the_bound_at_rest_and_hold_above_the_one_at_worst() {
         steps: (1..=40).step_by(3).collect(),
         time: 0.5,
     };
-    let map = Map::new(&scene, &cloth, axes, &|| Ok(())).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(folder.path(), crate::write).unwrap();
+    // Two parts make the whole.
+    for part in [1, 0] {
+        Map::share(&scene, &cloth, &axes, &store, &|number| number % 2 == part, &|| Ok(())).unwrap();
+    }
+    let [made, _] = store.counts();
+    let map = Map::new(&scene, &cloth, axes, &store, &|| Ok(())).unwrap();
+    assert_eq!(store.counts(), [made, made], "nothing is run again");
     assert_eq!((map.cells.len(), map.columns.len()), (4 * 14, 4));
     let mut seen = [0; 2];
     for column in &map.columns {

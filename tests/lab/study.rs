@@ -167,6 +167,23 @@ fn a_study_that_was_stopped_goes_on_where_it_was() {
     assert_eq!(without_times(&whole), without_times(&rest));
 }
 
+/// What several machines have run is found by the one that makes the page.
+#[test]
+fn the_parts_of_a_study_are_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = source(folder.path());
+    let only = vec!["verlet".to_owned()];
+    let extent = Extent { only, repeats: 1, ..extent() };
+    let parts = [[1, 2], [0, 2]].map(|part| Extent { part: Some(part), ..extent.clone() });
+    let (_, [first, _]) = run(&source, &parts[0], folder.path());
+    let (_, [second, kept]) = run(&source, &parts[1], folder.path());
+    assert!(first > 0 && second > 0 && kept > 0, "{first}, {second}: the reference is shared, {kept}");
+    let (whole, counts) = run(&source, &extent, folder.path());
+    assert_eq!(counts, [0, first + second], "nothing is run again");
+    let (alone, _) = run(&source, &extent, &folder.path().join("alone"));
+    assert_eq!(without_times(&whole), without_times(&alone));
+}
+
 /// A part of a study has the errors of the whole one, and asks for what there is.
 #[test]
 fn runs_can_be_picked_by_their_names() {

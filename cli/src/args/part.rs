@@ -19,6 +19,11 @@ impl Part {
         index % self.of == self.number - 1
     }
 
+    /// K from 0, and N.
+    pub(crate) fn of(self) -> Option<[usize; 2]> {
+        Some([usize::try_from(self.number - 1).ok()?, usize::try_from(self.of).ok()?])
+    }
+
     /// The pieces of this part where each takes consecutive ones of `count`.
     pub(crate) fn range(self, count: u64) -> Range<u64> {
         let end = |number: u64| {

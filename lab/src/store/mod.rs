@@ -110,6 +110,24 @@ impl Store {
         (self.write)(path, bytes)
     }
 
+    /// The result at `key`, or what `make` makes, which is put there.
+    ///
+    /// # Errors
+    /// Those of `make`, and as [`Store::put`].
+    pub(crate) fn kept<T: Serialize + DeserializeOwned>(
+        &self,
+        key: Address,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<T> {
+        if let Some(found) = self.get(key) {
+            self.count_found();
+            return Ok(found);
+        }
+        let made = make()?;
+        self.put(key, &made)?;
+        Ok(made)
+    }
+
     /// How many results there are.
     ///
     /// # Errors
