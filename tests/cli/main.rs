@@ -32,6 +32,7 @@ mod signals;
 mod simulating;
 mod states;
 mod sweep;
+mod sweep_spec;
 #[path = "../../examples/textbook_cloth.rs"]
 mod textbook_cloth;
 mod texts;

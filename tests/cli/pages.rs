@@ -68,7 +68,7 @@ fn the_stability_map_shows_a_panel_for_each_density() {
 /// What a reader does with the page of a sweep; an error is seen on the console, and success as one more plot.
 const CLICKS: &str = r#"<script>{
 const same = (found, expected) => { if (found !== expected) throw Error(`${found}, not ${expected}`); };
-const order = () => [...document.querySelectorAll('tbody tr')].map(row => row.cells[0].textContent).join();
+const order = () => [...document.querySelectorAll('.cases tbody tr')].map(row => row.cells[0].textContent).join();
 const head = name => [...document.querySelectorAll('th button')].find(button => button.textContent === name);
 same(order(), '1,2,3,4,5,6,7,8');
 head('cloth.ks').click();

@@ -20,6 +20,9 @@ const PLAN: &str = "plan.json";
 const CASES: &str = "cases.jsonl";
 const RESULTS: &str = "results";
 
+/// Most cases of a plan: their lines take some 100 GB.
+const MOST_CASES: u64 = 1_000_000_000;
+
 /// The version of the program, which a plan does not outlive.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -69,7 +72,7 @@ impl Plan {
     /// plan. `each` is called for every case. Records that are there stay.
     ///
     /// # Errors
-    /// [`Kind::Scene`] as [`Plan::spec`]; [`Kind::Io`] when a file cannot be written; those of `each`.
+    /// [`Kind::Scene`] as [`Plan::spec`], and for more than a billion cases; [`Kind::Io`] when a file cannot be written; those of `each`.
     pub fn make(
         folder: &Path,
         [spec, scene]: [Text; 2],
@@ -78,6 +81,10 @@ impl Plan {
         each: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Self> {
         let count = Self::spec(&spec.name, &spec.text)?.cases();
+        if count > MOST_CASES {
+            let message = format!("{}: the sweep has {count} cases, more than {MOST_CASES}", spec.name);
+            return Err(Error::new(Kind::Scene, message).with_help("give fewer values, or `zip`"));
+        }
         let stored = Stored { version: VERSION.to_owned(), cases: count, others: 0, spec, scene };
         let mut plan = Self::new(folder, stored, write)?;
         let failed = |e| Error::new(Kind::Io, format!("cannot write `{}`: {e}", plan.cases_path().display()));

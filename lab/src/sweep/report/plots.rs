@@ -144,7 +144,7 @@ fn curves(name: &str, along: &sweep::Axis, lines: Option<&sweep::Axis>, ranges: 
     plot
 }
 
-/// A cell for each pair of values, the darker the larger the mean; nothing if a parameter is not numbers.
+/// A cell for each pair of values, the stronger in colour the larger the mean; nothing if a parameter is not numbers.
 fn map(name: &str, along: &sweep::Axis, across: &sweep::Axis, ranges: &[Vec<Range>]) -> Option<Plot> {
     let (x, y) = (edges(&numbers(along)?, scale(along)), edges(&numbers(across)?, scale(across)));
     let means: Vec<f64> = ranges.iter().flatten().filter_map(|range| range.mean()).collect();
@@ -157,7 +157,7 @@ fn map(name: &str, along: &sweep::Axis, across: &sweep::Axis, ranges: &[Vec<Rang
     let axis = |parameter: &sweep::Axis, [low, high]: [f64; 2]| {
         Axis::new(&parameter.path, scale(parameter), low, high)
     };
-    let title = format!("{name}: light {}, dark {}", short(least), short(most));
+    let title = format!("{name}: faint {}, strong {}", short(least), short(most));
     let mut plot = Plot::new(&title, axis(along, ends(&x)), axis(across, ends(&y)));
     for (line, y) in ranges.iter().zip(&y) {
         for (range, x) in line.iter().zip(&x) {

@@ -17,7 +17,7 @@ th[aria-sort=ascending] button::after{content:' \\25b2'}th[aria-sort=descending]
 .cases tr.bad td{color:var(--b)}.cases td:last-child{text-align:left}\
 .tile:focus-visible img,.tile:hover img,.tile:hover .none{outline:2px solid var(--a)}\
 dialog{max-width:min(46rem,94vw);color:var(--ink);background:var(--paper);border:1px solid var(--line);\
-border-radius:8px}dialog::backdrop{background:#0008}dialog img{max-width:100%;image-rendering:auto}\
+border-radius:8px}dialog::backdrop{background:#0008}dialog h2{margin-top:0}dialog img{max-width:100%;image-rendering:auto}\
 dialog dl{display:grid;grid-template-columns:auto 1fr;gap:.15rem 1rem}dialog dd{margin:0}\
 dialog pre{white-space:pre-wrap}dialog button{font:inherit;padding:.2rem .9rem}\
 .plot{max-width:34rem}</style>\n";

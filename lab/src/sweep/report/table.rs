@@ -74,8 +74,12 @@ fn command(plan: &Plan, sets: &[String]) -> String {
         Some(picture) => {
             words.extend(["render".to_owned(), scene, "case.png".to_owned()]);
             let [width, height] = picture.size;
-            let material = picture.material.iter();
-            sets.extend(material.map(|(key, value)| quoted(&format!("material.{key}={value}"))));
+            for (key, value) in &picture.material {
+                match (key.as_str(), value.as_str()) {
+                    ("shader", Some(shader)) => words.extend(["--shader".to_owned(), quoted(shader)]),
+                    _ => sets.push(quoted(&format!("material.{key}={value}"))),
+                }
+            }
             words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         }
         None => words.extend(["simulate".to_owned(), scene]),
