@@ -16,7 +16,6 @@ use crate::session::files::outputs;
 use crate::session::files::staged::Staged;
 use crate::session::progress::Progress;
 use drape::error::{Error, Kind, Result};
-use drape_lab::store::Store;
 use drape_lab::sweep::plan::{Plan, Text};
 use drape_lab::sweep::report::{self, Counts};
 use drape_lab::sweep::work::{self, Event};
@@ -184,7 +183,11 @@ fn report(out: &Out, plan: &Plan, made: Option<u64>, session: &Session) -> Resul
         format!("{}: {cases} cases, {failed} ended in an error, {missing} without a result", index.display());
     let summary = Summary { made, failed: Some(failed), missing: Some(missing), ..summary(out, plan) };
     session.report(&summary, &line)?;
-    if missing > 0 { Err(Store::unfinished(missing, cases)) } else { Ok(()) }
+    if missing == 0 {
+        return Ok(());
+    }
+    let message = format!("{missing} of {cases} cases have no result yet");
+    Err(Error::new(Kind::Difference, message).with_help("run `drape sweep work` again, then the report"))
 }
 
 /// The progress of all workers, by counting results in the shared folder now and then.

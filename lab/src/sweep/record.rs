@@ -6,7 +6,7 @@ use std::fs;
 use serde::{Deserialize, Serialize};
 
 use crate::store::{Address, Entry, Store};
-use drape::error::{Error, Kind, Result};
+use drape::error::{Error, Result};
 use drape::math::StateHash;
 
 /// The ending of the pictures in the store.
@@ -96,7 +96,7 @@ impl Store {
     /// Stores a record, after its picture.
     ///
     /// # Errors
-    /// [`Kind::Io`] when a file cannot be written.
+    /// [`drape::error::Kind::Io`] when a file cannot be written.
     pub(super) fn put_record(
         &self,
         address: Address,
@@ -108,12 +108,6 @@ impl Store {
             record.picture = Some(hash(bytes));
         }
         self.put(address, &record)
-    }
-
-    /// The error of work that ended before all cases have a record.
-    pub fn unfinished(missing: u64, all: u64) -> Error {
-        let message = format!("{missing} of {all} cases have no result yet");
-        Error::new(Kind::Difference, message).with_help("run `drape sweep work` again, then the report")
     }
 }
 
