@@ -117,7 +117,7 @@ fn a_page_explains_itself_once_and_shows_single_values() {
         let columns = materials.clone().map(column).collect();
         let cell = |(density, ks)| steps.iter().map(move |&steps| Cell { density, ks, steps, run });
         let cells = materials.flat_map(cell).collect();
-        page::page("a map", &Map { axes, fps: 90.0, cells, columns }, &[])
+        page::page("a map", &Map { axes, fps: 90.0, cells, columns }, &[], None)
     };
     let text = page(&[5000.0], &[3]);
     for once in Outcome::ALL.map(Outcome::name).into_iter().chain(["at rest", "at worst", "Gershgorin"]) {

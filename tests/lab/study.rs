@@ -184,8 +184,10 @@ fn runs_can_be_picked_by_their_names() {
         let same = (0..whole.cells.len()).find(|&j| whole.name(j) == part_of.name(i)).unwrap();
         assert_eq!(cell.errors, whole.cells[same].errors);
     }
-    assert!(part.pictures.is_none() && !study::page(&part, "scene.json").unwrap().contains("No pictures"));
-    let page = study::page(&part, "scene.json").unwrap();
+    assert!(
+        part.pictures.is_none() && !study::page(&part, "scene.json", None).unwrap().contains("No pictures")
+    );
+    let page = study::page(&part, "scene.json", None).unwrap();
     assert!(page.contains("at 0.1, 0.2 s, without stretch limit and self-collision"), "{page}");
     assert!(page.contains("the scene's cloth: 150 kg/m², stable at worst from 600 steps/s"), "{page}");
 }

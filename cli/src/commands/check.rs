@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
-use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
 use crate::session::ui::{help_lines, paint};
+use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
 use drape::scene::{self, Images, Material, Scene};

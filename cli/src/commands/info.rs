@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
+use drape::diagnostics::advice::largest_ks;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Item, PerKind, Scene, plan};

@@ -46,6 +46,9 @@ pub(crate) struct Args {
     /// minutes
     #[arg(long)]
     quick: bool,
+    /// Link each row of the page's table to its cloth on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL")]
+    live: Option<String>,
 }
 
 /// The results.
@@ -65,12 +68,13 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     outputs::make_folder(&args.out)?;
     outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
 
+    let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
     let (map, rows) = args.measure(&scene, cloth, session)?;
     let results = Results { map: &map, extremes: &rows };
     let json = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
     let [index, data] = files;
     atomic::write(&data, (json + "\n").as_bytes())?;
-    atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
+    atomic::write(&index, page::page(&args.title(), &map, &rows, live.as_ref()).as_bytes())?;
     session.print(&results, &text(&map, &rows, &index))
 }
 

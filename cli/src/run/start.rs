@@ -1,8 +1,9 @@
 //! The start of a simulation. A step that is certain to fail is an error before the first step.
 
-use super::stability::{unstable_at_rest, warn_of_deformation};
+use super::stability::warn_of_deformation;
 use crate::session::Session;
 use drape::cloth::Points;
+use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
