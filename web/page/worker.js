@@ -6,6 +6,7 @@ const SLICE = 25;
 let page; // the engine
 let asked = null; // the newest request that was not loaded yet
 let goal = 0; // the frame to simulate to before a picture is drawn
+let missed = 0; // the goal that was given up when the cloth blew up
 let playing = false;
 let failure = ''; // how the cloth blew up
 let id = 0; // the number of the last order of the page that was carried out
@@ -98,7 +99,8 @@ function load() {
   const { request, frame, play, id: order } = asked;
   asked = null;
   id = Math.max(id, order);
-  const before = Math.max(page.frame(), goal);
+  const before = Math.max(page.frame(), goal, missed);
+  missed = 0;
   let answer;
   try {
     answer = JSON.parse(page.load(JSON.stringify(request)));
@@ -129,7 +131,9 @@ function advance() {
     if (typeof error !== 'string') throw error;
     failure = error;
     playing = false;
+    missed = goal;
     goal = page.frame();
+    stale = true;
     postMessage({ type: 'failed', text: error });
     return false;
   }

@@ -32,8 +32,8 @@ const SCENES: [(&str, &str); 5] = [
 #[derive(Default)]
 pub struct Page {
     live: Live,
-    /// The last picture that was drawn.
-    rgb: Vec<u8>,
+    /// The last picture that was drawn: red, green, blue and 255 of each pixel.
+    rgba: Vec<u8>,
 }
 
 #[wasm_bindgen]
@@ -104,8 +104,8 @@ impl Page {
 
     /// Draws the picture: red, green, blue and 255 for each pixel, top row first.
     pub fn draw(&mut self) -> Vec<u8> {
-        self.rgb = self.live.draw();
-        self.rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect()
+        self.rgba = self.live.draw();
+        self.rgba.clone()
     }
 
     /// Width of the picture in pixels.
@@ -120,7 +120,7 @@ impl Page {
 
     /// The hash of the picture that was drawn last, as `drape render --hash` prints it.
     pub fn picture_hash(&self) -> String {
-        format!("{:016x}", live::hash(&self.rgb))
+        format!("{:016x}", live::hash(&self.rgba))
     }
 
     /// The hash of the state, as `drape simulate --hash` prints it.

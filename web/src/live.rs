@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::energy::Energy;
-use drape::diagnostics::stability::Stability;
+use drape::diagnostics::stability::{Stability, has_step_bound, is_always_stable};
 use drape::error::{Error, Kind, Result};
 use drape::math::StateHash;
 use drape::output::png::{self, Effort};
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 use crate::command::command;
 use crate::controls::{objects, values};
-use crate::gauge::gauge;
+use crate::gauge::{Gauge, gauge};
 use crate::message::texts;
 use crate::request::Request;
 
@@ -41,6 +41,7 @@ struct Stage {
     renderer: Renderer,
     framebuffer: Framebuffer,
     options: Options,
+    gauge: Option<Gauge>,
 }
 
 impl Live {
@@ -59,27 +60,23 @@ impl Live {
             let help = format!("in a browser, pixels times samples may be at most {MAX_SAMPLES}");
             return Err(Error::new(Kind::Scene, message).with_help(help));
         }
-        let answer = json!({
-            "warnings": texts(&loaded.warnings),
-            "values": values(&scene)?,
-            "objects": objects(&scene),
-            "gauge": gauge(&scene)?,
-            "textures": self.textures.keys().filter(|name| !name.contains('/')).collect::<Vec<_>>(),
-        });
         let source = TextureSource::Memory(self.textures.clone());
-        let before = self.stage.take();
-        match Stage::after(before, &request, &scene, options, &source) {
-            Ok((stage, anew)) => {
-                self.stage = Some(stage);
-                let mut answer = answer;
-                answer["anew"] = json!(anew);
-                Ok(answer)
+        let (values, objects) = (values(&scene)?, objects(&scene));
+        let anew = match &mut self.stage {
+            Some(stage) => stage.change(&request, scene, options, &source)?,
+            None => {
+                self.stage = Some(Stage::new(&request, scene, options, &source)?);
+                true
             }
-            Err((before, error)) => {
-                self.stage = before.map(|stage| *stage);
-                Err(error)
-            }
-        }
+        };
+        Ok(json!({
+            "anew": anew,
+            "warnings": texts(&loaded.warnings),
+            "values": values,
+            "objects": objects,
+            "gauge": self.stage.as_ref().and_then(|stage| stage.gauge.as_ref()),
+            "textures": self.textures.keys().filter(|name| !name.contains('/')).collect::<Vec<_>>(),
+        }))
     }
 
     /// Adds a texture of the user's own, by the name of its file without ending, such as `plaid` or `sky/posx`.
@@ -145,7 +142,7 @@ impl Live {
 
     /// Length over rest length of the spring that is stretched most.
     pub(crate) fn stretch(&self) -> f64 {
-        self.stage.as_ref().map_or(0.0, |stage| stage.simulation.extremes().stretch)
+        self.stage.as_ref().map_or(0.0, |stage| stage.simulation.largest_stretch())
     }
 
     /// The hash of the state.
@@ -153,12 +150,12 @@ impl Live {
         self.stage.as_ref().map_or(0, |stage| stage.simulation.state_hash())
     }
 
-    /// Draws the picture: red, green and blue of each pixel, top row first.
+    /// Draws the picture: red, green, blue and 255 of each pixel, top row first.
     pub(crate) fn draw(&mut self) -> Vec<u8> {
         let Some(stage) = &mut self.stage else { return Vec::new() };
         let Stage { renderer, framebuffer, simulation, options, .. } = stage;
         renderer.draw_into(framebuffer, simulation.positions(), options);
-        framebuffer.rgb()
+        framebuffer.rgba()
     }
 
     /// Width and height of the picture.
@@ -172,7 +169,9 @@ impl Live {
     /// As [`png::encode`].
     pub(crate) fn png(&mut self) -> Result<Vec<u8>> {
         let [width, height] = self.size();
-        png::encode(width, height, &self.draw(), Effort::Fast)
+        let rgb: Vec<u8> =
+            self.draw().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        png::encode(width, height, &rgb, Effort::Fast)
     }
 
     /// The positions as `drape simulate --positions` writes them.
@@ -194,51 +193,34 @@ impl Live {
     }
 }
 
-/// What a change of the scene left, if it failed.
-type Failed = (Option<Box<Stage>>, Error);
-
 impl Stage {
-    /// The stage for a request, and whether the cloth starts anew. What `before` has that stays the same is kept.
-    fn after(
-        before: Option<Self>,
-        request: &Request,
-        scene: &Scene,
-        options: Options,
-        source: &TextureSource,
-    ) -> std::result::Result<(Self, bool), Failed> {
-        let Some(mut stage) = before else {
-            return Self::new(request, scene, options, source)
-                .map(|stage| (stage, true))
-                .map_err(|error| (None, error));
-        };
-        let anew = !(stage.scene.moves_like(scene)
-            && stage.request.ledger == request.ledger
-            && stage.request.allow_unstable == request.allow_unstable);
-        let simulation = if anew { start(request, scene).map(Some) } else { Ok(None) };
-        match simulation.and_then(|simulation| Ok((simulation, stage.renderer.change_scene(scene, source)?)))
-        {
-            Ok((simulation, ())) => {
-                stage.framebuffer = stage.renderer.framebuffer();
-                (stage.request, stage.scene, stage.options) = (request.clone(), scene.clone(), options);
-                stage.simulation = simulation.unwrap_or(stage.simulation);
-                Ok((stage, anew))
-            }
-            Err(error) => Err((Some(Box::new(stage)), error)),
-        }
+    fn new(request: &Request, scene: Scene, options: Options, source: &TextureSource) -> Result<Self> {
+        let renderer = Renderer::new(&scene, source)?;
+        let framebuffer = renderer.framebuffer();
+        let (simulation, gauge) = (start(request, &scene)?, gauge(&scene)?);
+        Ok(Self { request: request.clone(), scene, simulation, renderer, framebuffer, options, gauge })
     }
 
-    fn new(request: &Request, scene: &Scene, options: Options, source: &TextureSource) -> Result<Self> {
-        let renderer = Renderer::new(scene, source)?;
-        let framebuffer = renderer.framebuffer();
-        let simulation = start(request, scene)?;
-        Ok(Self {
-            request: request.clone(),
-            scene: scene.clone(),
-            simulation,
-            renderer,
-            framebuffer,
-            options,
-        })
+    /// Shows another request; whether the cloth starts anew, which it does if it would move in another way. After an
+    /// error all is as before.
+    fn change(
+        &mut self,
+        request: &Request,
+        scene: Scene,
+        options: Options,
+        source: &TextureSource,
+    ) -> Result<bool> {
+        let anew = !(self.scene.moves_like(&scene)
+            && self.request.ledger == request.ledger
+            && self.request.allow_unstable == request.allow_unstable);
+        let started = if anew { Some((start(request, &scene)?, gauge(&scene)?)) } else { None };
+        self.renderer.change_scene(&scene, source)?;
+        if let Some((simulation, gauge)) = started {
+            (self.simulation, self.gauge) = (simulation, gauge);
+        }
+        self.framebuffer = self.renderer.framebuffer();
+        (self.request, self.scene, self.options) = (request.clone(), scene, options);
+        Ok(anew)
     }
 }
 
@@ -250,9 +232,8 @@ fn start(request: &Request, scene: &Scene) -> Result<Simulation> {
         simulation.allow_unstable();
     }
     let hidden = !request.allow_unstable && scene.sim.stretch_limit.is_some();
-    let bound =
-        scene.cloth.as_ref().map(|cloth| Stability::of_bounded(cloth, &scene.sim)).transpose()?.flatten();
-    let guarded = hidden && bound.is_some_and(|stability| !stability.is_always_stable());
+    let may_blow_up = |cloth| has_step_bound(cloth, &scene.sim) && !is_always_stable(cloth, &scene.sim);
+    let guarded = hidden && scene.cloth.as_ref().is_some_and(may_blow_up);
     if guarded || request.ledger {
         simulation.record_ledger()?;
     }
@@ -268,9 +249,9 @@ fn check_start(request: &Request, scene: &Scene) -> Result<()> {
     }
 }
 
-/// The hash of bytes.
-pub(crate) fn hash(bytes: &[u8]) -> u64 {
+/// The hash of a picture with 255 after each pixel's blue, which the hash leaves out.
+pub(crate) fn hash(rgba: &[u8]) -> u64 {
     let mut hash = StateHash::default();
-    hash.write(bytes);
+    rgba.chunks_exact(4).for_each(|pixel| hash.write(&pixel[..3]));
     hash.finish()
 }

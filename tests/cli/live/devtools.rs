@@ -54,7 +54,7 @@ impl DevTools {
         let from = BufReader::new(File::open(pipe("answers")).unwrap());
         let (sender, answers) = channel();
         std::thread::spawn(move || {
-            for message in from.split(0).map_while(std::result::Result::ok) {
+            for message in from.split(0).map_while(Result::ok) {
                 let Ok(value) = serde_json::from_slice(&message) else { return };
                 if sender.send(value).is_err() {
                     return;

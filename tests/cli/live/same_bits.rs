@@ -87,7 +87,7 @@ fn node_computes_the_bits_of_the_native_program() {
 fn the_page_shows_the_bits_of_the_native_program() {
     let Some(mut tools) = opened("scene=sphere&frame=0&paused&size=320x250", 1400, false) else { return };
     for (name, native) in native() {
-        for frame in (0..=FRAMES).step_by(10) {
+        for frame in (0..=FRAMES).step_by(FRAMES / 2) {
             go(&mut tools, &format!("scene={name}&frame={frame}&paused&size=320x250"));
             assert_eq!((tools.text("status"), tools.text("frame")), ("paused".to_owned(), frame.to_string()));
             assert_eq!(tools.text("state-hash"), native.states[frame], "{name}, frame {frame}");

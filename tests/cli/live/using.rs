@@ -31,8 +31,14 @@ fn picture_of_command(scratch: &Scratch, command: &str) -> String {
     let run = Command::new("bash").args(["-c", &line]).current_dir(scratch.path("")).output().unwrap();
     assert!(run.status.success(), "{command}: {}", String::from_utf8_lossy(&run.stderr));
     let name = scratch.names().into_iter().find(|name| name.ends_with(".png")).unwrap();
-    let picture = png::read(&scratch.path(&name)).unwrap();
+    let hash = hash_of(scratch, &name);
     fs::remove_file(scratch.path(&name)).unwrap();
+    hash
+}
+
+/// The hash of a picture in a file.
+fn hash_of(scratch: &Scratch, name: &str) -> String {
+    let picture = png::read(&scratch.path(name)).unwrap();
     let mut hash = StateHash::default();
     picture.rgba.iter().for_each(|pixel| hash.write(&pixel[..3]));
     format!("{:016x}", hash.finish())
@@ -80,7 +86,8 @@ fn keys_and_buttons_move_the_cloth() {
 
 #[test]
 fn a_slider_changes_the_cloth_and_its_command() {
-    let Some(mut tools) = opened(PAUSED, 1400, true) else { return };
+    let link = PAUSED.replace("sphere", "pinned2");
+    let Some(mut tools) = opened(&link, 1400, true) else { return };
     settle(&mut tools);
     let scratch = Scratch::new();
     check_command(&mut tools, &scratch);
@@ -133,5 +140,70 @@ fn a_scene_of_ones_own_has_the_errors_of_the_command_line() {
     check_command(&mut tools, &scratch);
     go(&mut tools, "scene=sphere&frame=x");
     assert!(tools.text("status").contains("must be a whole number"), "{}", tools.text("status"));
+    assert_eq!(tools.console, Vec::<String>::new());
+}
+
+#[test]
+fn the_page_fits_every_window_and_names_every_control() {
+    for (width, dark, paper) in [(1400, false, "rgb(255, 255, 255)"), (390, true, "rgb(23, 23, 26)")] {
+        let Some(mut tools) = opened(&format!("{PAUSED}&ledger"), width, dark) else { return };
+        settle(&mut tools);
+        tools.eval("document.querySelector('details').open = true");
+        let sizes = tools.eval("[innerWidth, document.documentElement.scrollWidth]");
+        assert!(sizes[0] == width && sizes[1].as_u64() <= Some(width.into()), "{width}: {sizes}");
+        assert_eq!(tools.eval("getComputedStyle(document.body).backgroundColor"), paper);
+        let nameless = tools.eval(
+            "[...document.querySelectorAll('button, input, select, textarea, canvas')].filter((e) => \
+             !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim())).map((e) => e.outerHTML)",
+        );
+        assert_eq!(nameless, serde_json::json!([]));
+        assert_eq!(tools.console, Vec::<String>::new());
+    }
+}
+
+#[test]
+fn textures_are_dropped_and_the_scene_can_be_taken_away() {
+    let Some(mut tools) = opened(PAUSED, 1400, false) else { return };
+    settle(&mut tools);
+    let scratch = Scratch::new();
+    let before = tools.text("picture-hash");
+    // A texture of one colour, drawn by the browser itself.
+    tools.eval(
+        "(async () => { const c = new OffscreenCanvas(4, 4); const p = c.getContext('2d'); p.fillStyle = '#336699'; \
+         p.fillRect(0, 0, 4, 4); const d = new DataTransfer(); \
+         d.items.add(new File([await c.convertToBlob()], 'blue.png', {type: 'image/png'})); \
+         document.body.dispatchEvent(new DragEvent('drop', {dataTransfer: d, bubbles: true, cancelable: true})); })()",
+    );
+    tools.wait("document.getElementById('command').textContent.includes('material.texture')");
+    settle(&mut tools);
+    assert_ne!(tools.text("picture-hash"), before);
+    assert!(tools.text("command").contains("--textures textures"), "{}", tools.text("command"));
+    let pixel =
+        "[...document.getElementById('view').getContext('2d').getImageData(160, 200, 1, 1).data].join()";
+    assert_eq!(tools.eval(pixel), "51,102,153,255");
+    // The scene with its changes, as a file, is the scene that is shown.
+    go(&mut tools, "scene=plane&frame=20&paused&shader=normal&size=64x50&set=cloth.ks=700");
+    let text = tools.eval("document.getElementById('text').value");
+    fs::write(scratch.path("taken.json"), text.as_str().unwrap()).unwrap();
+    let hash = scratch.succeed(&["render", "taken.json", "--frame", "20", "--hash"]);
+    assert_eq!(String::from_utf8(hash).unwrap().trim(), tools.text("picture-hash"));
+    assert_eq!(tools.console, Vec::<String>::new());
+}
+
+#[test]
+fn the_gallery_links_to_the_moment_of_a_picture() {
+    let Some(mut tools) = opened(PAUSED, 1400, false) else { return };
+    settle(&mut tools);
+    let scratch = Scratch::new();
+    let figure = ["gallery", "out", "--only", "part5-bump16", "--only", "part1-shear"];
+    scratch.succeed(&[&figure[..], &["--live", "live.html"]].concat());
+    let page = String::from_utf8(scratch.read("out/index.html")).unwrap();
+    for name in ["part1-shear", "part5-bump16"] {
+        let (_, section) = page.split_once(&format!("<section id=\"{name}\">")).unwrap();
+        let (_, link) = section.split_once("<a href=\"live.html#").unwrap();
+        let link = link.split('"').next().unwrap().replace("&amp;", "&");
+        go(&mut tools, &link);
+        assert_eq!(tools.text("picture-hash"), hash_of(&scratch, &format!("out/{name}.png")), "{link}");
+    }
     assert_eq!(tools.console, Vec::<String>::new());
 }

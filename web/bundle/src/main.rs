@@ -52,7 +52,9 @@ fn page(engine: &Path, folder: &Path) -> Result<String> {
     let wasm = BASE64_STANDARD.encode(gzip.finish()?);
     let worker = format!("{}\n{}", output.js(), read("worker.js")?);
     // In the order in which they build on each other.
-    let scripts = ["link.js", "view.js", "plots.js", "controls.js", "page.js"].map(read);
+    let scripts =
+        ["link.js", "view.js", "plots.js", "controls.js", "page.js", "show.js", "files.js", "input.js"]
+            .map(read);
     let scripts = scripts.into_iter().collect::<std::result::Result<Vec<_>, _>>()?.concat();
     let mut page = read("index.html")?;
     for (mark, text) in [
