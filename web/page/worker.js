@@ -11,7 +11,7 @@ let playing = false;
 let failure = ''; // how the cloth blew up
 let id = 0; // the number of the last order of the page that was carried out
 let stale = false; // whether the picture that the page has is not that of the state
-let shown = true; // whether the page has shown the last picture
+let waiting = 0; // how many pictures the page has not shown yet
 let fps = 90;
 let rows = []; // a row for each frame since the last picture
 let scheduled = false;
@@ -39,7 +39,7 @@ const actions = {
     if (failure) postMessage({ type: 'failed', text: failure });
     else goal = Math.max(goal, page.frame()) + 1;
   },
-  shown() { shown = true; },
+  shown() { waiting -= 1; },
   texture({ name, bytes }) { page.add_texture(name, bytes); postMessage({ type: 'texture', name }); },
   png() { give('png', page.png()); },
   positions() { give('positions', page.positions()); },
@@ -90,7 +90,8 @@ function schedule(wait = 0) {
 function turn() {
   if (asked) return load();
   if (page.frame() < goal) return catchUp();
-  if (!shown) return; // The page says when it has shown the picture.
+  // One picture may wait while the next is made; the page says when it has shown one.
+  if (waiting > 1) return;
   if (playing) return play();
   if (stale) draw();
 }
@@ -186,7 +187,7 @@ function draw() {
   const pixels = page.draw();
   const drawn = performance.now() - started;
   stale = false;
-  shown = false;
+  waiting += 1;
   postMessage({
     type: 'picture', pixels, width: page.width(), height: page.height(), frame: page.frame(), id,
     state: page.state_hash(), picture: page.picture_hash(), stretch: page.stretch(), command: page.command(),
