@@ -25,18 +25,28 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// The point that the camera of a scene looks at, and how far it is from there, in metres: those that the
+    /// scene gives or the defaults for its cloth.
+    ///
+    /// # Errors
+    /// A cloth that does not fit in memory.
+    pub fn target_and_distance(scene: &Scene) -> Result<(Vec3, f64)> {
+        let target = match (scene.camera.target, &scene.cloth) {
+            (Some(target), _) => target,
+            (None, Some(cloth)) => default_target(cloth)?,
+            (None, None) => TARGET_WITHOUT_CLOTH,
+        };
+        let distance = scene.camera.distance.unwrap_or_else(|| default_distance(scene.cloth.as_ref()));
+        Ok((target, distance))
+    }
+
     /// The camera of a scene, for the picture size that the scene asks for.
     ///
     /// # Errors
     /// A cloth that does not fit in memory; a distance that is lost in the target's rounding.
     pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
-        let target = match (settings.target, &scene.cloth) {
-            (Some(target), _) => target,
-            (None, Some(cloth)) => default_target(cloth)?,
-            (None, None) => TARGET_WITHOUT_CLOTH,
-        };
-        let distance = settings.distance.unwrap_or_else(|| default_distance(scene.cloth.as_ref()));
+        let (target, distance) = Self::target_and_distance(scene)?;
         let (sin_polar, cos_polar) = sin_cos_degrees(settings.polar);
         let (sin_azimuth, cos_azimuth) = sin_cos_degrees(settings.azimuth);
         let direction = Vector3::new(sin_polar * sin_azimuth, cos_polar, sin_polar * cos_azimuth);

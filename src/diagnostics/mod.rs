@@ -1,5 +1,6 @@
 //! What is measured of a cloth: energies, extremes, rest, and whether its step is stable.
 
+pub mod advice;
 pub mod energy;
 pub(crate) mod energy_bound;
 pub mod extremes;

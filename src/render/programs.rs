@@ -34,15 +34,43 @@ impl Programs {
     /// # Errors
     /// A texture that is missing or cannot be decoded.
     pub(super) fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
-        let images = Images::of(scene);
-        let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
-        let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
-        Ok(Self {
-            scene: scene.clone(),
-            camera: Camera::of(scene)?,
-            textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
-            cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
-        })
+        let (textures, cubemaps) = (Vec::new(), Vec::new());
+        let mut programs = Self { scene: scene.clone(), camera: Camera::of(scene)?, textures, cubemaps };
+        programs.read_missing(source)?;
+        Ok(programs)
+    }
+
+    /// The same for another scene; what was read is kept and not read again.
+    ///
+    /// # Errors
+    /// As [`Programs::new`]; then nothing but what was read has changed.
+    pub(super) fn change_scene(&mut self, scene: &Scene, source: &TextureSource) -> Result<()> {
+        let (scene, camera) = (scene.clone(), Camera::of(scene)?);
+        let before = std::mem::replace(&mut self.scene, scene);
+        if let Err(error) = self.read_missing(source) {
+            self.scene = before;
+            return Err(error);
+        }
+        self.camera = camera;
+        Ok(())
+    }
+
+    /// Reads the textures that the scene needs and that were not read yet.
+    fn read_missing(&mut self, source: &TextureSource) -> Result<()> {
+        let images = Images::of(&self.scene);
+        for name in images.textures {
+            if find(&self.textures, &name).is_none() {
+                let texture = source.texture(&name)?;
+                self.textures.push((name, texture));
+            }
+        }
+        for name in images.environments {
+            if find(&self.cubemaps, &name).is_none() {
+                let cubemap = source.cubemap(&name)?;
+                self.cubemaps.push((name, cubemap));
+            }
+        }
+        Ok(())
     }
 
     /// Takes the texels of all textures into `hash`.

@@ -113,6 +113,17 @@ impl Scene {
         counts
     }
 
+    /// Whether the cloth moves in both alike: all but what pictures show is equal.
+    pub fn moves_like(&self, other: &Self) -> bool {
+        let cloth = match (&self.cloth, &other.cloth) {
+            (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        let colliders = self.colliders.len() == other.colliders.len()
+            && self.colliders.iter().zip(&other.colliders).all(|(a, b)| a.collides_like(b));
+        cloth && colliders && self.sim == other.sim
+    }
+
     /// What each drawn object looks like, in draw order: the cloth, then the colliders.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
         let cloth = self.cloth.iter().map(|cloth| &cloth.material);

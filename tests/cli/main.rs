@@ -18,6 +18,7 @@ mod files;
 mod gallery;
 mod golden;
 mod goldens;
+mod live;
 #[path = "../support/mistakes.rs"]
 mod mistakes;
 mod pages;

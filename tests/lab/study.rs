@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Overrides};
 use drape::texture_source::TextureSource;
+use drape_lab::page::live::Live;
 use drape_lab::store::Store;
 use drape_lab::study::extent::Extent;
 use drape_lab::study::matrix::{Cell, panels};
@@ -201,8 +202,15 @@ fn runs_can_be_picked_by_their_names() {
         let same = (0..whole.cells.len()).find(|&j| whole.name(j) == part_of.name(i)).unwrap();
         assert_eq!(cell.errors, whole.cells[same].errors);
     }
-    assert!(part.pictures.is_none() && !study::page(&part, "scene.json").unwrap().contains("No pictures"));
-    let page = study::page(&part, "scene.json").unwrap();
+    assert!(
+        part.pictures.is_none() && !study::page(&part, "scene.json", None).unwrap().contains("No pictures")
+    );
+    let page = study::page(&part, "scene.json", Some(&Live::at("live.html"))).unwrap();
+    let link = "set=sim.integrator=bdf2&amp;set=sim.start=report&amp;set=sim.fps=10&amp;set=sim.steps_per_frame=60\">BDF2 at 600 steps/s</a>";
+    assert!(
+        page.contains("<a href=\"live.html#paused&amp;set=sim.integrator=verlet&amp;") && page.contains(link),
+        "{page}"
+    );
     assert!(page.contains("at 0.1, 0.2 s, without stretch limit and self-collision"), "{page}");
     assert!(page.contains("the scene's cloth: 150 kg/m², stable at worst from 600 steps/s"), "{page}");
 }

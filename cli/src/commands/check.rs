@@ -9,11 +9,11 @@ use serde::Serialize;
 use crate::args::scene::Changes;
 use crate::session::Session;
 use crate::session::ui::{help_lines, paint};
+use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
 use drape::scene::{self, Images, Material, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
-use drape_lab::run::stability::unstable_at_rest;
 
 /// The arguments of `check`.
 #[derive(clap::Args)]

@@ -5,10 +5,10 @@ use serde::Serialize;
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::Session;
 use drape::cloth::{Params, springs};
+use drape::diagnostics::advice::largest_ks;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Item, PerKind, Scene, plan};
-use drape_lab::run::stability::largest_ks;
 
 /// The arguments of `info`.
 #[derive(clap::Args)]

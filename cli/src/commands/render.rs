@@ -52,6 +52,20 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..),
           conflicts_with_all = ["picture", "depth", "ids", "stats"])]
     bench: Option<u32>,
+    /// Print the hash of the picture, over the bytes of its red, green and blue from the top row on; no picture is
+    /// written
+    #[arg(long, conflicts_with_all = ["picture", "depth", "ids", "stats", "bench"])]
+    hash: bool,
+}
+
+/// The hash of a picture.
+#[derive(Serialize)]
+struct Hash {
+    picture_hash: String,
+    width: u32,
+    height: u32,
+    frame: u64,
+    time: f64,
 }
 
 /// The summary.
@@ -84,8 +98,12 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     }
     let picture = renderer.draw(simulation.positions(), &options);
     session.signals.check()?;
-    args.write(&path, &picture)?;
-    args.finish(&path, &picture, &simulation, session)?;
+    if args.hash {
+        print_hash(&picture, &simulation, session)?;
+    } else {
+        args.write(&path, &picture)?;
+        args.finish(&path, &picture, &simulation, session)?;
+    }
     ended.result()
 }
 
@@ -110,9 +128,9 @@ impl Args {
         }
     }
 
-    /// Checks all outputs before any long work; with `--bench` there are none.
+    /// Checks all outputs before any long work; with `--bench` and `--hash` there are none.
     fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
-        if self.bench.is_some() {
+        if self.bench.is_some() || self.hash {
             return Ok(());
         }
         outputs::check_ending(picture, "png")?;
@@ -157,6 +175,14 @@ impl Args {
         let summary = Summary { picture: path.display().to_string(), width, height, frame, time, stats };
         session.print(&summary, &text(&stats))
     }
+}
+
+fn print_hash(picture: &Picture, simulation: &Simulation, session: &Session) -> Result<()> {
+    let &Picture { width, height, .. } = picture;
+    let picture_hash = format!("{:016x}", picture.hash());
+    let text = format!("{picture_hash}\n");
+    let (frame, time) = (simulation.frame(), simulation.time());
+    session.print(&Hash { picture_hash, width, height, frame, time }, &text)
 }
 
 fn text(stats: &Stats) -> String {

@@ -51,6 +51,9 @@ pub(crate) struct Args {
     /// Run only part K of N of the map and keep the results in OUT/cells, for the command without --part
     #[arg(long, value_name = "K/N")]
     part: Option<Part>,
+    /// Link each row of the page's table to its cloth on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL")]
+    live: Option<String>,
 }
 
 /// The results.
@@ -70,6 +73,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     outputs::make_folder(&args.out)?;
     outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
 
+    let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
     let store = Store::new(&args.out.join("cells"), atomic::write)?;
     if let Some(part) = args.part {
         return args.share(&scene, cloth, part, &store, session);
@@ -79,7 +83,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let json = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
     let [index, data] = files;
     atomic::write(&data, (json + "\n").as_bytes())?;
-    atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
+    atomic::write(&index, page::page(&args.title(), &map, &rows, live.as_ref()).as_bytes())?;
     session.print(&results, &text(&map, &rows, &index))
 }
 

@@ -39,6 +39,9 @@ pub(crate) struct Args {
     /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
+    /// Link each run on the page to its cloth on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL")]
+    live: Option<String>,
 }
 
 /// Runs what no earlier study has finished, writes the page and prints the advice.
@@ -49,6 +52,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let extent = Extent { only: args.only.clone(), part: args.part.and_then(Part::of), ..extent };
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let folder = args.folder()?;
+    let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
     let steps = study::steps(&source, &extent)?;
     let store = Store::new(&folder.join("cells"), atomic::write)?;
     let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
@@ -74,7 +78,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let bytes = serde_json::to_vec_pretty(&results).map_err(|e| json_failed(&e))?;
     atomic::write(&json, &bytes)?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
-    atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
+    atomic::write(&page, study::page(&study, &name, live.as_ref())?.as_bytes())?;
     session.ui.note(&format!("{}: page written", page.display()));
     session.print(&results, &results.text())
 }

@@ -1,8 +1,9 @@
 //! The start of a simulation. A step that is certain to fail is an error before the first step.
 
-use super::stability::{may_deform, unstable_at_rest};
+use super::stability::may_deform;
 use super::warning::Warning;
 use drape::cloth::Points;
+use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
