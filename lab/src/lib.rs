@@ -12,6 +12,8 @@ pub mod csv;
 pub mod store;
 pub mod page;
 pub mod study;
+pub mod horizon;
+pub mod choose;
 pub mod stability_map;
 pub mod gallery;
 pub mod grader;
