@@ -15,6 +15,8 @@ pub mod store;
 pub mod page;
 pub mod sweep;
 pub mod study;
+pub mod horizon;
+pub mod choose;
 pub mod stability_map;
 pub mod gallery;
 pub mod grader;

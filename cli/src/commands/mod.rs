@@ -2,10 +2,12 @@
 
 pub(crate) mod animate;
 pub(crate) mod check;
+pub(crate) mod choose;
 pub(crate) mod compare;
 pub(crate) mod compare_positions;
 pub(crate) mod export;
 pub(crate) mod gallery;
+pub(crate) mod horizon;
 pub(crate) mod info;
 pub(crate) mod meta;
 mod positions;
