@@ -84,6 +84,7 @@ same(dialog.querySelector('img').naturalWidth, 40);
 same(dialog.querySelector('pre').textContent,
   'drape render scene.json case.png --size 40x30 --set cloth.ks=500 --set cloth.density=15 --time 0.1');
 dialog.close();
+dialog.querySelector('img').remove();
 document.body.insertAdjacentHTML('beforeend', '<svg width="300" height="9"><g><path d="M0 0h9"/></g></svg>');
 }</script></body>"#;
 

@@ -94,3 +94,24 @@ fn a_plan_that_no_disk_holds_is_refused() {
     assert_eq!(run.code, Some(3));
     assert!(run.stderr.contains("the sweep has 10000000000 cases, more than 1000000000"), "{}", run.stderr);
 }
+
+/// The text of the first block of `docs/cluster.md` that starts with `start`.
+fn block(start: &str) -> String {
+    let page = fs::read_to_string(crate::repository::path("docs/cluster.md")).unwrap();
+    let mut blocks = page.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n'));
+    blocks.find(|(_, text)| text.starts_with(start)).unwrap().1.to_owned()
+}
+
+#[test]
+fn the_page_about_clusters_has_a_sweep_that_can_be_planned() {
+    let scratch = scratch(&block("{"));
+    fs::copy(crate::scratch::scene("sphere.json"), scratch.path("sphere.json")).unwrap();
+    assert_eq!(scratch.json(&["sweep", "plan", "spec.json", "out", "--json"])["cases"], json!(27));
+}
+
+#[test]
+fn the_page_about_clusters_has_the_script_that_is_checked_on_slurm() {
+    let check = fs::read_to_string(crate::repository::path(".ci/check-cluster")).unwrap();
+    let script = block("#!/bin/bash");
+    assert!(script.contains("srun drape") && check.contains(&script), "{script}");
+}

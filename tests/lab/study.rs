@@ -182,7 +182,9 @@ fn the_parts_of_a_study_are_the_whole() {
     let (whole, counts) = run(&source, &extent, folder.path());
     assert_eq!(counts, [0, first + second], "nothing is run again");
     let (alone, _) = run(&source, &extent, &folder.path().join("alone"));
-    assert_eq!(without_times(&whole), without_times(&alone));
+    let errors =
+        |study: &Study| study.panels[0].cells.iter().map(|cell| cell.errors.clone()).collect::<Vec<_>>();
+    assert!(!errors(&whole).is_empty() && errors(&whole) == errors(&alone));
 }
 
 /// A part of a study has the errors of the whole one, and asks for what there is.

@@ -55,7 +55,7 @@ mod tests {
         for (of, count) in [(1, 0), (1, 5), (3, 10), (7, 3), (16, 1000), (2, u64::MAX)] {
             let parts: Vec<Part> = (1..=of).map(|number| Part { number, of }).collect();
             let ranges: Vec<_> = parts.iter().map(|part| part.range(count)).collect();
-            assert_eq!((ranges[0].start, ranges[of as usize - 1].end), (0, count));
+            assert_eq!((ranges[0].start, ranges.last().unwrap().end), (0, count));
             assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start), "{ranges:?}");
             let lengths = ranges.iter().map(|range| range.end - range.start);
             assert!(lengths.clone().max().unwrap() - lengths.min().unwrap() <= 1, "{ranges:?}");
