@@ -121,9 +121,9 @@ mod tests {
         let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);
         let count = pictures.count();
         let (shots, shown) = (vec![shot; count], vec![shown[0].clone(); count]);
-        let linked = super::page(&parts, &shots, &shown, Some(&Live::at("live.html"))).unwrap();
+        let linked = page(&parts, &shots, &shown, Some(&Live::at("live.html"))).unwrap();
         assert_eq!(linked.matches("<a href=\"live.html#paused&amp;scene=").count(), count);
-        let page = super::page(&parts, &shots, &shown, None).unwrap();
+        let page = page(&parts, &shots, &shown, None).unwrap();
 
         assert_eq!(page.matches("<section id=").count(), 51);
         assert_eq!(page.matches("<h2>").count(), parts.len());
