@@ -3,6 +3,7 @@
 pub mod energy;
 pub(crate) mod energy_bound;
 pub mod extremes;
+pub mod geometry;
 pub mod ledger;
 pub mod rest;
 pub mod stability;

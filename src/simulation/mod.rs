@@ -23,7 +23,7 @@ use timing::Timing;
 
 use crate::cloth::{Counters, Params, Points, chunks};
 use crate::diagnostics::energy::Energy;
-use crate::diagnostics::extremes::Extremes;
+use crate::diagnostics::extremes::{Extremes, longest_spring};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
 use crate::math::StateHash;
@@ -197,6 +197,12 @@ impl Simulation {
     pub fn extremes(&self) -> Extremes {
         let Some(cloth) = &self.cloth else { return Extremes::default() };
         Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.params.dt)
+    }
+
+    /// Largest length of a spring over its rest length; 0 without springs.
+    pub fn largest_stretch(&self) -> f64 {
+        let longest = self.cloth.as_ref().and_then(|cloth| longest_spring(&cloth.x, &cloth.springs));
+        longest.map_or(0.0, |spring| spring.stretch)
     }
 
     /// Records an energy ledger from now on. The cloth moves as without one, to the last bit.

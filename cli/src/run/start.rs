@@ -3,9 +3,10 @@
 use super::stability::{unstable_at_rest, warn_of_deformation};
 use crate::session::Session;
 use drape::cloth::Points;
+use drape::diagnostics::geometry::{Concern, STARTS_INSIDE, concerns};
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};
-use drape::scene::Scene;
+use drape::scene::{Contact, Scene};
 use drape::simulation::{Simulation, Unresolved};
 
 /// The simulation of `scene` at its start, which will be advanced by `frames` frames.
@@ -39,6 +40,7 @@ pub(crate) fn start_from(
     if allow_unstable {
         simulation.allow_unstable();
     }
+    warn_of_start(scene, session)?;
     if let Some(cloth) = scene.cloth.as_ref().filter(|_| frames > 0) {
         if let Some(error) = stuck(&simulation, frames as f64 / scene.sim.fps).filter(|_| !allow_unstable) {
             return Err(error);
@@ -58,6 +60,15 @@ pub(crate) fn start_from(
         }
     }
     Ok(simulation)
+}
+
+/// Warns of points that start inside an object, which `coulomb` puts on its surface.
+fn warn_of_start(scene: &Scene, session: &Session) -> Result<()> {
+    if scene.sim.contact == Contact::Coulomb {
+        let inside = concerns(scene)?.into_iter().filter(|concern| concern.code == STARTS_INSIDE);
+        inside.for_each(|Concern { message, help, .. }| session.ui.caution(&message, &help));
+    }
+    Ok(())
 }
 
 /// The error of a step so short that it is lost in the rounding of the positions.

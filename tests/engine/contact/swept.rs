@@ -10,7 +10,7 @@ fn a_fast_cloth_stops_at_a_thin_object() {
     let objects = [
         r#"sphere={"origin":[0.5,-7,0.5],"radius":0.005,"friction":1e15}"#,
         r#"box={"origin":[0.5,-7,0.5],"size":[2,0.01,2],"friction":1e15}"#,
-        r#"plane={"point":[0.5,-6.995,0.5],"normal":[0,1,0],"friction":1e15}"#,
+        r#"plane={"point":[0.5,-7,0.5],"normal":[0,1,0],"friction":1e15}"#,
     ];
     for object in objects {
         for side in [1.0, -1.0] {
@@ -21,7 +21,8 @@ fn a_fast_cloth_stops_at_a_thin_object() {
             let sets = [&corner[..], &[object, &velocity, &offset, "cloth.width=0.5", "cloth.height=0.5"]].concat();
             let end = after(&scene(&sets), 0.1);
             let x = end.positions().get(3);
-            assert!((x - Vec3::new(0.5, -7.0 + 0.005 * side, 0.5)).norm() < 1e-9, "{object}, side {side}: {x}");
+            let half = if object.starts_with("plane") { 0.0 } else { 0.005 };
+            assert!((x - Vec3::new(0.5, -7.0 + half * side, 0.5)).norm() < 1e-9, "{object}, side {side}: {x}");
             let last = end.last_positions().get(3);
             assert!((x - last).norm() < 1e-12, "{object}, side {side}: at rest");
         }
@@ -67,7 +68,7 @@ fn a_fall_ends_on_the_floor_without_a_rebound() {
             simulation.advance_frame().unwrap();
             let (y, t) = (middle(simulation.positions()).y, simulation.time());
             let expected = if t < landing { 1.0 - 4.9 * t * t } else { 0.0 };
-            assert!((y - expected).abs() < 1e-12, "{steps}, {t} s: {y} m, not {expected}");
+            assert!((y - expected).abs() < 1e-9, "{steps}, {t} s: {y} m, not {expected}");
         }
         assert!(simulation.energy().kinetic < 1e-20, "{steps}: {:?}", simulation.energy());
     }
