@@ -24,6 +24,10 @@ use crate::scene::{ColliderKind, PerKind, Vec3};
 /// Most contacts of a point in one step.
 const MOST_CONTACTS: u32 = 16;
 
+/// The part of a way that leads into an object where the way only grazes it: what rounding makes of a way along the
+/// surface.
+const GRAZE: f64 = 1e-12;
+
 /// What contact did to the squares of the velocities in a step: the change of `|v dt|²`, in m², summed over the points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Change {
@@ -36,7 +40,7 @@ pub(crate) struct Change {
 /// The motion of the points at the end of a step, which contact changes.
 #[derive(Clone, Debug)]
 pub(crate) struct Coulomb {
-    /// How far each point goes in a step at its velocity, in metres.
+    /// How far each point that was in contact in this step goes in a step at its velocity, in metres.
     pub(crate) velocity: Points,
     /// Whether each point was in contact in this step.
     pub(crate) touched: Vec<bool>,
@@ -50,7 +54,11 @@ impl Coulomb {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(points: usize) -> Result<Self> {
-        Ok(Self { velocity: Points::zeros(points)?, touched: filled(points, false)?, change: Change::default() })
+        Ok(Self {
+            velocity: Points::zeros(points)?,
+            touched: filled(points, false)?,
+            change: Change::default(),
+        })
     }
 
     /// Begins a step.
@@ -59,23 +67,44 @@ impl Coulomb {
         self.change = Change::default();
     }
 
-    /// Contact of every unpinned point, on its way from `last` to `x`, with the objects.
+    /// Notes that point `p` is in contact, and its velocity if it was not yet.
+    pub(super) fn touch(&mut self, p: usize, velocity: impl FnOnce() -> Vec3) {
+        if !self.touched[p] {
+            self.touched[p] = true;
+            self.velocity.set(p, velocity());
+        }
+    }
+
+    /// The sum of the squares of the velocities of a pair.
+    pub(super) fn square_of(&self, pair: [usize; 2]) -> f64 {
+        let [v, w] = pair.map(|p| self.velocity.get(p));
+        dot(v, v) + dot(w, w)
+    }
+
+    /// Contact of every unpinned point, on its way from `last` to `x`, with the objects. `velocity` is how far a point
+    /// goes in a step, of its number and both positions.
     pub(crate) fn meet(
         &mut self,
         colliders: &Colliders,
         x: &mut Points,
         last: &Points,
         pins: &Pins,
+        velocity: impl Fn(usize, Vec3, Vec3) -> Vec3,
         counters: &mut Counters,
     ) {
         for p in pins.free.iter().cloned().flatten() {
-            let start = Motion { at: last.get(p), way: x.get(p) - last.get(p), velocity: self.velocity.get(p) };
-            if let Some(end) = start.meet(p, x.get(p), colliders, &mut self.change.colliders) {
-                x.set(p, end.at);
-                self.velocity.set(p, end.velocity);
-                self.touched[p] = true;
-                counters.object_moves += 1;
+            let (end, start) = (x.get(p), last.get(p));
+            let motion = Motion { at: start, way: end - start, velocity: Vec3::zeros() };
+            let entry = first_entry(p, &motion, colliders);
+            if entry.is_none() && put_outside(p, end, colliders).is_none() {
+                continue;
             }
+            self.touch(p, || velocity(p, end, start));
+            let motion = Motion { velocity: self.velocity.get(p), ..motion };
+            let motion = motion.meet(p, end, colliders, &mut self.change.colliders);
+            x.set(p, motion.at);
+            self.velocity.set(p, motion.velocity);
+            counters.object_moves += 1;
         }
         counters.object_tests += pins.free_points() * colliders.len() as u64;
     }
@@ -92,13 +121,11 @@ struct Motion {
 }
 
 impl Motion {
-    /// The end of the step of point `p`, which would end at `x`; `None` if it meets nothing.
-    fn meet(mut self, p: usize, x: Vec3, colliders: &Colliders, change: &mut PerKind<f64>) -> Option<Self> {
-        let mut touched = false;
-        for _ in 0..MOST_CONTACTS {
+    /// The end of the step of point `p`, which would end at `x` without contact.
+    fn meet(mut self, p: usize, x: Vec3, colliders: &Colliders, change: &mut PerKind<f64>) -> Self {
+        for contacts in 0..MOST_CONTACTS {
             let Some((kind, shape, entry)) = first_entry(p, &self, colliders) else {
-                self.at = if touched { self.at + self.way } else { x };
-                self.way = Vec3::zeros();
+                self.at = if contacts > 0 { self.at + self.way } else { x };
                 break;
             };
             let before = dot(self.velocity, self.velocity);
@@ -106,11 +133,8 @@ impl Motion {
             self.way = after_contact(self.way * (1.0 - entry.part), entry.normal, shape.friction());
             self.velocity = after_contact(self.velocity, entry.normal, shape.friction());
             change[kind] += dot(self.velocity, self.velocity) - before;
-            touched = true;
         }
-        let outside = put_outside(p, self.at, colliders);
-        self.at = outside.unwrap_or(self.at);
-        (touched || outside.is_some()).then_some(self)
+        Self { at: put_outside(p, self.at, colliders).unwrap_or(self.at), ..self }
     }
 }
 
@@ -123,6 +147,7 @@ fn first_entry<'a>(
     let mut first: Option<(ColliderKind, &dyn Shape, Entry)> = None;
     for (kind, shape) in colliders.shapes() {
         if let Some(entry) = shape.enter(p, motion.at, motion.way)
+            && -dot(motion.way, entry.normal) > GRAZE * len(motion.way)
             && first.as_ref().is_none_or(|(_, _, other)| entry.part < other.part)
         {
             first = Some((kind, shape, entry));

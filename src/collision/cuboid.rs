@@ -41,7 +41,12 @@ impl Cuboid {
     #[inline(always)]
     fn contains(&self, x: Vec3) -> bool {
         let Self { lower, upper, .. } = self;
-        (lower.x < x.x) & (x.x < upper.x) & (lower.y < x.y) & (x.y < upper.y) & (lower.z < x.z) & (x.z < upper.z)
+        (lower.x < x.x)
+            & (x.x < upper.x)
+            & (lower.y < x.y)
+            & (x.y < upper.y)
+            & (lower.z < x.z)
+            & (x.z < upper.z)
     }
 
     /// The coordinate at which a face lies.

@@ -41,7 +41,10 @@ impl Pairs {
 
     /// Adds the pair of `p` and `q`, at `x`, if it is too close and one of both can move.
     pub(super) fn add(&mut self, p: usize, q: usize, x: &Points, pins: &Pins) {
-        if len(x.get(p) - x.get(q)) < self.kept([p, q]) && !(pins.pinned[p] && pins.pinned[q]) {
+        let e = x.get(p) - x.get(q);
+        let square = dot(e, e);
+        let near = square < self.distance * self.distance;
+        if near && square.sqrt() < self.kept([p, q]) && !(pins.pinned[p] && pins.pinned[q]) {
             self.close.push([p, q]);
         }
     }
@@ -68,25 +71,35 @@ impl Pairs {
         }
     }
 
-    /// Ends the approach of every pair.
-    pub(crate) fn end_approach(&self, contact: &mut Coulomb, x: &mut Points, last: &Points, pins: &Pins) {
+    /// Ends the approach of every pair. `velocity` is how far a point goes in a step, of its number and both
+    /// positions.
+    pub(crate) fn end_approach(
+        &self,
+        contact: &mut Coulomb,
+        x: &mut Points,
+        last: &Points,
+        pins: &Pins,
+        velocity: impl Fn(usize, Vec3, Vec3) -> Vec3,
+    ) {
         for &pair in self.close.iter().cycle().take(PASSES * self.close.len()) {
             let [p, q] = pair;
             let e = last.get(p) - last.get(q);
             let l = len(e);
-            if l > 0.0 {
-                let n = e / l;
-                let left = (l - self.kept(pair)).max(0.0);
-                let way = dot(x.get(p) - x.get(q), n) - l;
-                approach_less(x, pair, n * (way + left).min(0.0), pins);
-                let speed = dot(contact.velocity.get(p) - contact.velocity.get(q), n);
-                if way + left < 0.0 && speed < 0.0 {
-                    let energy = |velocity: &Points| pair.map(|p| dot(velocity.get(p), velocity.get(p))).iter().sum::<f64>();
-                    let before = energy(&contact.velocity);
-                    approach_less(&mut contact.velocity, pair, n * speed, pins);
-                    contact.change.self_collision += energy(&contact.velocity) - before;
-                    pair.iter().filter(|p| !pins.pinned[**p]).for_each(|&p| contact.touched[p] = true);
-                }
+            let n = e / l;
+            // How much nearer they come than they may.
+            let excess = dot(x.get(p) - x.get(q), n) - l + (l - self.kept(pair)).max(0.0);
+            if l == 0.0 || excess >= 0.0 {
+                continue;
+            }
+            for p in pair.into_iter().filter(|&p| !pins.pinned[p]) {
+                contact.touch(p, || velocity(p, x.get(p), last.get(p)));
+            }
+            approach_less(x, pair, n * excess, pins);
+            let speed = dot(contact.velocity.get(p) - contact.velocity.get(q), n);
+            if speed < 0.0 {
+                let before = contact.square_of(pair);
+                approach_less(&mut contact.velocity, pair, n * speed, pins);
+                contact.change.self_collision += contact.square_of(pair) - before;
             }
         }
     }

@@ -38,7 +38,8 @@ impl Shape for Sphere {
         // Of the height above the surface, not of squares of the radius: a ball may be large.
         let outside = ((distance - self.radius) * (distance + self.radius)).max(0.0);
         let discriminant = approach * approach - dot(way, way) * outside;
-        let part = if discriminant < 0.0 { f64::INFINITY } else { outside / (discriminant.sqrt() - approach) };
+        let part =
+            if discriminant < 0.0 { f64::INFINITY } else { outside / (discriminant.sqrt() - approach) };
         (part <= 1.0).then(|| {
             let e = e + way * part;
             let normal = e / len(e);

@@ -65,12 +65,7 @@ pub(crate) struct Allowance {
 
 impl Allowance {
     /// The allowance of the cloth of `scene`, which has `springs`.
-    pub(crate) fn new(
-        scene: &Scene,
-        cloth: &Cloth,
-        springs: &Springs,
-        params: &Params,
-    ) -> Self {
+    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params) -> Self {
         let Params { mass, dt, .. } = *params;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
         let coulomb = scene.sim.contact == Contact::Coulomb;
@@ -89,12 +84,7 @@ impl Allowance {
     }
 
     /// The bound of a cloth that starts at `x` with `energy`.
-    pub(crate) fn energy_bound(
-        &self,
-        x: &Points,
-        energy: Energy,
-        params: &Params,
-    ) -> EnergyBound {
+    pub(crate) fn energy_bound(&self, x: &Points, energy: Energy, params: &Params) -> EnergyBound {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
         let Params { dt, steps_per_frame, .. } = *params;
         for p in 0..x.len() {

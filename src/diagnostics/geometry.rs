@@ -82,11 +82,7 @@ fn too_thin(scene: &Scene, cloth: &Cloth) -> Option<Concern> {
             "2 x thickness is {kept} m, and a point is {gap:.4} m from the next in the middle of four: the cloth passes \
              through itself there"
         ),
-        help: format!(
-            "raise cloth.thickness to {}, or {}",
-            rounded_up(0.5 * gap),
-            points_for(cloth, kept)
-        ),
+        help: format!("raise cloth.thickness to {}, or {}", rounded_up(0.5 * gap), points_for(cloth, kept)),
     })
 }
 
@@ -138,7 +134,9 @@ impl Start<'_> {
         }
         let what = match self.scene.sim.contact {
             Contact::Coulomb => "they are put on its surface, at rest",
-            _ => "they get a speed that nothing gave them when they are put outside (not with `sim.contact` = `coulomb`)",
+            _ => {
+                "they get a speed that nothing gave them when they are put outside (not with `sim.contact` = `coulomb`)"
+            }
         };
         Some(Concern {
             code: STARTS_INSIDE,
@@ -160,7 +158,10 @@ impl Start<'_> {
         let message = if under == heights.len() {
             format!("the cloth starts under `{key}`: a plane is a sheet, and below it nothing is held up")
         } else {
-            format!("the cloth starts across `{key}`: {under} of {} points are below it, and stay there", heights.len())
+            format!(
+                "the cloth starts across `{key}`: {under} of {} points are below it, and stay there",
+                heights.len()
+            )
         };
         let by = normal * rounded_up(-deepest);
         let help = format!("start above it: add [{}, {}, {}] to cloth.offset", by.x, by.y, by.z);
@@ -195,7 +196,8 @@ mod tests {
 
     #[test]
     fn numbers_are_rounded_up_to_three_digits() {
-        for (value, expected) in [(0.0, 0.0), (1.0, 1.0), (0.123_41, 0.125), (0.123_6, 0.124), (9.991, 10.1)] {
+        for (value, expected) in [(0.0, 0.0), (1.0, 1.0), (0.123_41, 0.125), (0.123_6, 0.124), (9.991, 10.1)]
+        {
             let found = rounded_up(value);
             assert!(found >= value && (found - expected).abs() < 1e-12, "{value}: {found}");
         }

@@ -172,7 +172,13 @@ mod tests {
     fn half_a_second_of_quiet_is_rest() {
         assert!(!last_motion(0.0, &[0.0; 45]).1, "the first frame tells nothing");
         assert!(last_motion(0.0, &[0.0; 46]).1);
-        assert!(!last_motion(0.0, &[&[0.0; 40][..], &[1.0], &[0.0; 45]].concat()).1, "frames alike by chance");
-        assert!(last_motion(0.0, &[&[1.0][..], &[0.0; 47]].concat()).1, "all that was before does not matter");
+        assert!(
+            !last_motion(0.0, &[&[0.0; 40][..], &[1.0], &[0.0; 45]].concat()).1,
+            "frames alike by chance"
+        );
+        assert!(
+            last_motion(0.0, &[&[1.0][..], &[0.0; 47]].concat()).1,
+            "all that was before does not matter"
+        );
     }
 }

@@ -9,7 +9,8 @@ use super::json::node::Node;
 use super::json::span::Span;
 use super::json::text::enumerated;
 use super::{
-    Cloth, ColliderKind, Contact, Damping, Integrator, MAX_POINTS, PerKind, Precision, Scene, SelfCollision, Start,
+    Cloth, ColliderKind, Contact, Damping, Integrator, MAX_POINTS, PerKind, Precision, Scene, SelfCollision,
+    Start,
 };
 
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
@@ -181,8 +182,9 @@ impl Checks<'_> {
             let Some(key) = keys.iter().find(|key| self.span(key).is_some()) else { continue };
             if collider.friction() > 1.0 && self.clean(&[key]) {
                 let message = format!("`{key}` is {} but must be from 0 to 1", collider.friction());
-                let finding = Finding::new("scene::out_of_range", message)
+                let finding = Finding::new("scene::friction", message)
                     .key(key)
+                    .also(self.span("sim.contact"), "`sim.contact` is set here")
                     .help("a coefficient of friction, which may be larger, needs `sim.contact` = `coulomb`");
                 self.error(self.span(key), "not allowed", finding);
             }

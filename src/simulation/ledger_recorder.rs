@@ -36,7 +36,15 @@ impl LedgerRecorder {
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(super) fn new(points: usize) -> Result<Self> {
         let (ledger, before) = (Ledger::default(), Points::zeros(points)?);
-        Ok(Self { ledger, frame_start: ledger, before, spring: 0.0, gravitational: 0.0, total: 0.0, height: 0.0 })
+        Ok(Self {
+            ledger,
+            frame_start: ledger,
+            before,
+            spring: 0.0,
+            gravitational: 0.0,
+            total: 0.0,
+            height: 0.0,
+        })
     }
 
     /// Notes the entries at the start of a frame.

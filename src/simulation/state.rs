@@ -6,9 +6,9 @@ use crate::cloth::grid::{self, Grid, Pins};
 use crate::cloth::springs::Springs;
 use crate::cloth::stretch_limit::StretchLimit;
 use crate::cloth::{Counters, Model, Params, Points};
+use crate::collision::Colliders;
 use crate::collision::coulomb::{self, Coulomb};
 use crate::collision::self_collision::SelfCollision;
-use crate::collision::Colliders;
 use crate::diagnostics::energy::Energy;
 use crate::diagnostics::energy_bound::{Allowance, EnergyBound};
 use crate::error::{Error, Kind, Result};
@@ -154,19 +154,15 @@ impl State {
 
     /// Under `coulomb`: contact of the cloth with itself and with the objects.
     pub(super) fn touch(&mut self) {
-        let Self { coulomb: Some(contact), x, last, pins, integrator, self_collision, colliders, work, .. } = self
-        else {
-            return;
-        };
+        let Self { coulomb, params, pins, x, last, integrator, self_collision, colliders, work, .. } = self;
+        let Some(contact) = coulomb else { return };
         contact.begin();
-        let free = || pins.free.iter().cloned().flatten();
-        let dt = self.params.dt;
-        free().for_each(|p| contact.velocity.set(p, integrator.displacement(p, x.get(p), last.get(p), dt)));
+        let velocity = |p, x, last| integrator.displacement(p, x, last, params.dt);
         if let Some(pairs) = self_collision.as_ref().and_then(SelfCollision::pairs) {
-            pairs.end_approach(contact, x, last, pins);
+            pairs.end_approach(contact, x, last, pins, velocity);
         }
-        contact.meet(colliders, x, last, pins, work);
-        for p in free().filter(|&p| contact.touched[p]) {
+        contact.meet(colliders, x, last, pins, velocity, work);
+        for p in (0..x.len()).filter(|&p| contact.touched[p]) {
             last.set(p, x.get(p) - contact.velocity.get(p));
             integrator.forget(p);
         }

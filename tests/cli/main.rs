@@ -9,6 +9,7 @@
 mod animate;
 mod binary;
 mod browser;
+mod contact;
 mod disk;
 mod docs;
 mod errors;

@@ -107,7 +107,7 @@ impl Stretch {
     /// Lines of the summary: nothing where the limit holds and has nothing to do.
     fn text(&self) -> String {
         let Self { largest, limit, shortened_per_step } = *self;
-        let beyond = if largest > limit + 1e-6 {
+        let beyond = if largest > limit + 1e-3 {
             format!(
                 "stretch      {:.1} % at most: the limit of {:.1} % did not hold; more sim.stretch_passes or steps do\n",
                 100.0 * (largest - 1.0),

@@ -1,7 +1,6 @@
 //! Contact of the cloth with itself under `coulomb`: pushing apart gives no speed, and approach is inelastic.
 
 use drape::scene::{Overrides, Scene, load};
-use drape::simulation::Simulation;
 
 use super::{scene, simulation};
 
@@ -26,29 +25,23 @@ fn what_overlaps_at_the_start_stays_at_rest() {
     }
 }
 
-/// What lies on itself after 2 s is slower with shorter steps, not faster, and keeps its distance.
+/// A cloth that falls on itself only loses energy by that, and keeps its distance, at every step.
 #[test]
-fn a_cloth_that_falls_on_itself_loses_its_speed() {
-    for steps in [30, 120] {
+fn a_cloth_that_falls_on_itself_loses_energy_and_keeps_its_distance() {
+    for steps in [15, 60] {
         let steps = format!("sim.steps_per_frame={steps}");
-        let scene = falling(&[&steps, "sim.self_collision=neighbors"]);
-        let mut simulation = Simulation::new(&scene).unwrap();
-        simulation.record_ledger().unwrap();
-        let (mut fastest, mut nearest, mut risen) = (0.0_f64, f64::INFINITY, 0.0_f64);
-        let mut before = 0.0;
-        for _ in 0..180 {
+        let mut simulation = simulation(&falling(&[&steps, "sim.self_collision=neighbors"]));
+        let (mut nearest, mut risen, mut before) = (f64::INFINITY, 0.0_f64, 0.0);
+        for _ in 0..120 {
             simulation.advance_frame().unwrap();
-            let (extremes, entry) = (simulation.extremes(), simulation.ledger().unwrap().self_collision);
-            if simulation.frame() > 120 {
-                fastest = fastest.max(extremes.speed);
-            }
-            nearest = nearest.min(extremes.distance);
+            let (distance, entry) =
+                (simulation.extremes().distance, simulation.ledger().unwrap().self_collision);
+            nearest = nearest.min(distance);
             risen = risen.max(entry - before);
             before = entry;
         }
-        println!("{steps}: {fastest} m/s, {nearest} m, {risen:e} J, {:?} {:?}", simulation.ledger(), simulation.energy());
-        assert!(fastest < 0.8, "{steps}: {fastest} m/s");
-        assert!(nearest > 0.01, "{steps}: {nearest} m");
-        assert!(risen < 1e-3, "{steps}: {risen:e} J");
+        // They keep 40 mm. What pairs bring each other too close by, some pushes make good, against the springs.
+        assert!(before < -0.1 && risen < 1e-6, "{steps}: {before} J in all, {risen:e} J in a frame");
+        assert!(nearest > 0.036, "{steps}: {nearest} m");
     }
 }

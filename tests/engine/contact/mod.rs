@@ -3,6 +3,7 @@
 mod energy;
 mod extremes;
 mod itself;
+mod page;
 mod sliding;
 mod swept;
 

@@ -3,8 +3,9 @@
 use std::fs;
 
 use drape::scene::{
-    Camera, Cloth, Collider, Cuboid, Contact, Damping, Filter, Integrator, Light, Material, Orientation, Overrides,
-    Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load, load_text,
+    Camera, Cloth, Collider, Contact, Cuboid, Damping, Filter, Integrator, Light, Material, Orientation,
+    Overrides, Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load,
+    load_text,
 };
 
 const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];
@@ -231,7 +232,12 @@ fn every_optional_key_is_read() {
                 resolution: [16, 8],
                 material: material.clone(),
             }),
-            Collider::Cuboid(Cuboid { origin: v123, size: Vec3::new(4.0, 5.0, 6.0), friction: 0.5, material }),
+            Collider::Cuboid(Cuboid {
+                origin: v123,
+                size: Vec3::new(4.0, 5.0, 6.0),
+                friction: 0.5,
+                material,
+            }),
         ],
         render: Render {
             size: [640, 480],
