@@ -5,17 +5,18 @@ use super::scratch::{Run, Scratch, scene};
 
 /// `simulate` of a stock scene with `sets`.
 fn simulate(scratch: &Scratch, name: &str, sets: &[&str], options: &[&str]) -> Run {
-    let sets = sets.iter().flat_map(|set| ["--set", set]);
-    let arguments: Vec<&str> =
-        ["simulate", &scene(name)].into_iter().chain(sets).chain(options.iter().copied()).collect();
+    let path = scene(name);
+    let mut arguments = vec!["simulate", &path];
+    sets.iter().for_each(|set| arguments.extend(["--set", set]));
+    arguments.extend(options);
     scratch.run(&arguments)
 }
 
 /// The warnings of `check` for a stock scene with `sets`, each with its code, key, message and help.
 fn warnings(scratch: &Scratch, name: &str, sets: &[&str]) -> Vec<[String; 4]> {
     let path = scene(name);
-    let sets = sets.iter().flat_map(|set| ["--set", set]);
-    let arguments: Vec<&str> = ["check", "--json", &path].into_iter().chain(sets).collect();
+    let mut arguments = vec!["check", "--json", &path];
+    sets.iter().for_each(|set| arguments.extend(["--set", set]));
     let found = scratch.json(&arguments);
     let all = found["files"][0]["warnings"].as_array().unwrap();
     let text = |warning: &serde_json::Value, key: &str| warning[key].as_str().unwrap().to_owned();
@@ -99,8 +100,8 @@ fn geometry_that_cannot_hold_is_told_with_what_would_do() {
         let cured = [sets, *cure].concat();
         assert_eq!(warnings(&scratch, name, &cured), Vec::<[String; 4]>::new(), "{cured:?}");
         let path = scene(name);
-        let info: Vec<&str> =
-            ["info", &path].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+        let mut info = vec!["info", &path];
+        sets.iter().for_each(|set| info.extend(["--set", set]));
         assert!(scratch.run(&info).stderr.contains(part), "info {name}, {sets:?}: {part}");
     }
 }

@@ -34,7 +34,9 @@ fn the_table_names_every_test() {
     let source = fs::read_to_string(crate::repository::path("tests/engine/contact/extremes.rs")).unwrap();
     let tests = source.split("#[test]\nfn ").skip(1).map(|rest| rest.split('(').next().unwrap().to_owned());
     let mut tests: Vec<String> = tests.filter(|test| test != "the_table_names_every_test").collect();
-    (named.sort(), named.dedup(), tests.sort());
+    named.sort();
+    named.dedup();
+    tests.sort();
     assert_eq!(named, tests);
 }
 
