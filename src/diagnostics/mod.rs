@@ -4,6 +4,7 @@ pub mod advice;
 pub mod energy;
 pub(crate) mod energy_bound;
 pub mod extremes;
+pub mod geometry;
 pub mod ledger;
 pub mod rest;
 pub mod stability;

@@ -32,7 +32,7 @@ use json::object::{Object, defaults};
 pub use crate::math::Vec3;
 pub use camera::Camera;
 pub use cloth::{Cloth, MAX_POINTS, Orientation};
-pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Sphere};
+pub use collider::{Collider, ColliderKind, Cuboid, MAX_RESOLUTION, PerKind, Plane, Sphere};
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
@@ -51,7 +51,7 @@ pub use validate::MAX_OBJECTS;
 pub struct Scene {
     /// The cloth, if the scene has one.
     pub cloth: Option<Cloth>,
-    /// What the cloth collides with: the planes, then the spheres, each in file order.
+    /// What the cloth collides with: the planes, then the spheres, then the boxes, each in file order.
     pub colliders: Vec<Collider>,
     /// How the cloth is moved.
     pub sim: Sim,

@@ -10,6 +10,7 @@ mod animate;
 mod binary;
 mod browser;
 mod choose;
+mod contact;
 mod disk;
 mod docs;
 mod errors;

@@ -7,6 +7,7 @@
 )]
 
 mod cloth;
+mod contact;
 mod gl;
 mod integrators;
 mod layers;

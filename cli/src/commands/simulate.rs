@@ -9,7 +9,7 @@ use super::positions::PositionsArgs;
 use crate::args::flag::seconds;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
-use crate::run::advance::{Until, advance_until};
+use crate::run::advance::{Rest, Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -74,9 +74,59 @@ struct Summary {
     /// The energy that each phase added over the run, in J, if a ledger was recorded.
     #[serde(skip_serializing_if = "Option::is_none")]
     ledger: Option<Ledger>,
+    /// What the stretch limit left, if the scene has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stretch: Option<Stretch>,
+    /// The figures of the rest, if it was asked for and reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest: Option<Rest>,
     /// The state hash of each frame from 0, if asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     hashes: Vec<String>,
+}
+
+/// What the stretch limit left at the end.
+#[derive(Clone, Copy, Serialize)]
+struct Stretch {
+    /// Largest length of a spring over its rest length.
+    largest: f64,
+    /// The same at the limit.
+    limit: f64,
+    /// Springs that the limit shortened in each step of the last frame.
+    shortened_per_step: f64,
+}
+
+impl Stretch {
+    /// Of a scene with a stretch limit, which shortened so many springs in the last frame.
+    fn of(simulation: &Simulation, scene: &Scene, limited: u64) -> Option<Self> {
+        let limit = 1.0 + scene.needed_stretch_limit()?;
+        #[expect(clippy::cast_precision_loss, reason = "a number of springs is far below 2^53")]
+        let shortened_per_step = limited as f64 / f64::from(scene.sim.steps_per_frame);
+        Some(Self { largest: simulation.largest_stretch(), limit, shortened_per_step })
+    }
+
+    /// Lines of the summary: nothing where the limit holds and has nothing to do.
+    fn text(&self) -> String {
+        let Self { largest, limit, shortened_per_step } = *self;
+        let beyond = if largest > limit + 1e-3 {
+            format!(
+                "stretch      {:.1} % at most: the limit of {:.1} % did not hold; more sim.stretch_passes or steps do\n",
+                100.0 * (largest - 1.0),
+                100.0 * (limit - 1.0)
+            )
+        } else {
+            String::new()
+        };
+        let carried = if shortened_per_step >= 1.0 {
+            format!(
+                "stretch      {shortened_per_step:.1} springs a step were at the limit at the end: there the sag is the \
+                 limit's, not ks's\n"
+            )
+        } else {
+            String::new()
+        };
+        beyond + &carried
+    }
 }
 
 /// The times of the simulation.
@@ -106,7 +156,10 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.state.restore(&mut simulation, &scene, until.frames)?;
     let mut saving = args.state.saving(&scene);
     let mut hashes = Vec::new();
+    let (mut before, mut limited) = (0, 0);
     let ended = advance_until(&mut simulation, &scene, until, session, |now| {
+        let all = now.counters().springs_limited;
+        (limited, before) = (all - before, all);
         table.iter_mut().for_each(|table| table.row(now));
         args.positions.after_frame(&scene, now)?;
         saving.after_frame(now)?;
@@ -120,7 +173,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if args.bench {
         session.print_json(&bench(&simulation, springs, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
-        let summary = summary(&simulation, springs, hashes);
+        let stretch = Stretch::of(&simulation, &scene, limited);
+        let summary = summary(&simulation, springs, hashes, ended.rest, stretch);
         session.print(&summary, &summary.text())?;
     }
     ended.result()
@@ -173,7 +227,13 @@ impl Args {
     }
 }
 
-fn summary(simulation: &Simulation, springs: usize, hashes: Vec<String>) -> Summary {
+fn summary(
+    simulation: &Simulation,
+    springs: usize,
+    hashes: Vec<String>,
+    rest: Option<Rest>,
+    stretch: Option<Stretch>,
+) -> Summary {
     Summary {
         frames: simulation.frame(),
         time: simulation.time(),
@@ -183,6 +243,8 @@ fn summary(simulation: &Simulation, springs: usize, hashes: Vec<String>) -> Summ
         counters: simulation.counters(),
         energy: simulation.energy(),
         ledger: simulation.ledger(),
+        stretch,
+        rest,
         hashes,
     }
 }
@@ -194,11 +256,13 @@ impl Summary {
         let entries = self.ledger.map(Ledger::entries).into_iter().flatten();
         let ledger: String =
             entries.map(|(name, joule)| format!("  by {name:15} {joule:+.6e} J\n")).collect();
+        let stretch = self.stretch.map_or_else(String::new, |stretch| stretch.text());
+        let rest = self.rest.map_or_else(String::new, |rest| rest.text());
         format!(
             "frames       {frames}\nsteps        {}\ntime         {time} s\npoints       {points}\n\
              springs      {springs}\ncollisions   {} with objects, {} of the cloth with itself\n\
              shortened    {} springs\nenergy       {:.6e} J = kinetic {kinetic:.6e}, spring {spring:.6e}, \
-             gravitational {gravitational:.6e}\n{ledger}state hash   {state_hash}\n",
+             gravitational {gravitational:.6e}\n{ledger}{stretch}{rest}state hash   {state_hash}\n",
             counters.steps,
             counters.object_moves,
             counters.self_collision_moves,

@@ -2,8 +2,9 @@
 
 use crate::session::Session;
 use drape::cloth::Points;
+use drape::diagnostics::geometry::{Concern, STARTS_INSIDE, concerns};
 use drape::error::Result;
-use drape::scene::Scene;
+use drape::scene::{Contact, Scene};
 use drape::simulation::Simulation;
 use drape_lab::run::start;
 use drape_lab::run::warning::Warning;
@@ -33,8 +34,20 @@ pub(crate) fn start_from(
     session: &Session,
 ) -> Result<Simulation> {
     let (simulation, warning) = start::start(scene, frames, x, allow_unstable)?;
+    if x.is_none() {
+        warn_of_start(scene, session)?;
+    }
     if let Some(Warning { message, help }) = warning {
         session.ui.caution(&message, &help);
     }
     Ok(simulation)
+}
+
+/// Warns of points that start inside an object, which `coulomb` puts on its surface.
+fn warn_of_start(scene: &Scene, session: &Session) -> Result<()> {
+    if scene.sim.contact == Contact::Coulomb {
+        let inside = concerns(scene)?.into_iter().filter(|concern| concern.code == STARTS_INSIDE);
+        inside.for_each(|Concern { message, help, .. }| session.ui.caution(&message, &help));
+    }
+    Ok(())
 }

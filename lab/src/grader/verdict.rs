@@ -172,6 +172,7 @@ fn suspects(case: &Case<'_>, counters: Counters) -> String {
     let with_objects = collided.map(|kind| match kind {
         ColliderKind::Plane => "collision with planes (its side, friction)",
         ColliderKind::Sphere => "collision with spheres (friction, the centre)",
+        ColliderKind::Cuboid => "collision with boxes (friction, the nearest face)",
     });
     let limited = (counters.springs_limited > 0).then_some("the stretch limit (its order, pinned ends)");
     let names: Vec<&str> = with_itself.into_iter().chain(with_objects).chain(limited).collect();

@@ -140,8 +140,8 @@ impl Rest {
     /// Looks at the cloth after a frame; the first rest counts.
     fn look(&mut self, simulation: &Simulation) {
         if let Some(watch) = &mut self.watch {
-            let motion = watch.look(simulation.positions());
-            if self.time.is_none() && watch.is_rest(motion) {
+            watch.look(simulation.positions());
+            if self.time.is_none() && watch.is_rest() {
                 self.time = Some(simulation.time());
             }
         }
