@@ -184,7 +184,8 @@ impl Simulation {
     }
 
     /// Where the last step moved the points from, in metres: where the phases of the step before it
-    /// had left them. With `precision: f32` that is the position less the displacement.
+    /// had left them. With `precision: f32` that is the position less the displacement, and with `contact: coulomb` the
+    /// position less what the velocity after contact moves a point by in a step.
     pub fn last_positions(&self) -> &Points {
         self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.last)
     }

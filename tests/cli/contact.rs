@@ -27,7 +27,8 @@ fn warnings(scratch: &Scratch, name: &str, sets: &[&str]) -> Vec<[String; 4]> {
 /// its help asks for.
 type Wrong = (&'static str, &'static [&'static str], [&'static str; 3], &'static [&'static str]);
 
-const COARSE: [&str; 2] = ["cloth.num_width_points=20", "cloth.num_height_points=20"];
+const COARSE: [&str; 3] =
+    ["cloth.num_width_points=20", "cloth.num_height_points=20", "cloth.pinned=[[0,0],[19,0]]"];
 
 const WRONG: &[Wrong] = &[
     (

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::INTEGRATORS;
 
 /// The steps per frame of the columns; the first ones run always.
-const STEPS: [u32; 7] = [10, 30, 100, 300, 1000, 3000, 10_000];
+const STEPS: [u32; 6] = [10, 30, 100, 300, 1000, 3000];
 const ALWAYS: usize = 4;
 
 /// The names that the page gives the integrators.
@@ -39,7 +39,7 @@ const CASES: [Case; 5] = [
         sets: &[r#"plane={"point":[0,1,0],"normal":[0,1,0],"friction":0.6}"#, "sim.gravity=[4.9,-8.487,0]"],
         error: |mut run| {
             let (x, mut most) = (run.positions().x[0], 0.0_f64);
-            advance(&mut run, 10.0, |run| most = most.max((run.positions().x[0] - x).abs()));
+            advance(&mut run, 2.0, |run| most = most.max((run.positions().x[0] - x).abs()));
             most
         },
     },
