@@ -25,14 +25,22 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// The point that the camera of a scene looks at, and how far it is from there, in metres: those that the
+    /// scene gives or the defaults for its cloth.
+    ///
+    /// # Errors
+    /// A cloth that does not fit in memory.
+    pub fn target_and_distance(scene: &Scene) -> Result<(Vec3, f64)> {
+        Ok((target(scene)?, scene.camera_distance()))
+    }
+
     /// The camera of a scene, for the picture size that the scene asks for.
     ///
     /// # Errors
     /// A cloth that does not fit in memory; a distance that is lost in the target's rounding.
     pub fn of(scene: &Scene) -> Result<Self> {
         let settings = &scene.camera;
-        let target = target(scene)?;
-        let distance = scene.camera_distance();
+        let (target, distance) = Self::target_and_distance(scene)?;
         let (direction, up) = orbit(settings);
         let eye = target + direction * distance;
         if eye == target {

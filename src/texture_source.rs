@@ -1,5 +1,6 @@
 //! Where textures come from: the set inside the program, or a folder of one's own.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -43,6 +44,8 @@ pub enum TextureSource {
     /// folder NAME in it with such files for `posx`, `negx`, `posy`, `negy`, `posz` and `negz` is
     /// the cube map called NAME.
     Folder(PathBuf),
+    /// Files in memory, by name, such as `plaid` or `sky/posx`; what is not among them is the built-in one.
+    Memory(BTreeMap<String, Vec<u8>>),
 }
 
 impl TextureSource {
@@ -57,6 +60,10 @@ impl TextureSource {
                 check_name(name)?;
                 read_texture(folder, name)
             }
+            Self::Memory(files) => match files.get(name) {
+                Some(bytes) => Texture::decode(name, bytes),
+                None => built_in_texture(name),
+            },
         }
     }
 
@@ -66,16 +73,27 @@ impl TextureSource {
     /// As [`texture`](Self::texture) for each face, and [`Kind::Scene`] if the faces do not fit.
     pub fn cubemap(&self, name: &str) -> Result<Cubemap> {
         let [px, nx, py, ny, pz, nz] = match self {
-            Self::BuiltIn if is_built_in_cubemap(name) => {
+            Self::Memory(files) if files.contains_key(&format!("{name}/{}", FACES[0])) => {
+                FACES.map(|face| in_memory(files, &format!("{name}/{face}")))
+            }
+            Self::BuiltIn | Self::Memory(_) if is_built_in_cubemap(name) => {
                 CUBE.map(|(face, bytes)| Texture::decode(face, bytes))
             }
-            Self::BuiltIn => return Err(unknown("cube map", name, BUILT_IN_CUBE)),
+            Self::BuiltIn | Self::Memory(_) => return Err(unknown("cube map", name, BUILT_IN_CUBE)),
             Self::Folder(folder) => {
                 check_name(name)?;
                 FACES.map(|face| read_texture(&folder.join(name), face))
             }
         };
         Cubemap::new(name, [px?, nx?, py?, ny?, pz?, nz?])
+    }
+}
+
+fn in_memory(files: &BTreeMap<String, Vec<u8>>, name: &str) -> Result<Texture> {
+    match files.get(name) {
+        Some(bytes) => Texture::decode(name, bytes),
+        None => Err(Error::new(Kind::Scene, format!("there is no texture {name}"))
+            .with_help(format!("a cube map has six files: {}", FACES.join(", ")))),
     }
 }
 

@@ -7,8 +7,8 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    animate, check, compare, compare_positions, export, gallery, info, meta, render, simulate, stability,
-    study,
+    animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
+    simulate, stability, study, sweep,
 };
 use crate::session::files::atomic;
 use crate::session::ui::{Color, Ui};
@@ -71,6 +71,15 @@ pub(crate) enum Command {
     /// cloth of the scene, the study simulates cloths of 1/1000 and 1/100000 of its density (with --quick of 1/1000),
     /// which need more steps.
     Study(study::Args),
+    /// Run one scene with many changes, on one machine or on many that share a folder
+    Sweep(sweep::Args),
+    /// Find the cheapest integrator and steps for an accuracy, or the most accurate for a time
+    ///
+    /// The error is that of the positions at the moment, against the limit of ever smaller steps of the same scene,
+    /// contact and limits included; damping per step, which has no limit, is replaced by damping per second.
+    Choose(choose::Args),
+    /// Tell for how long positions can be trusted: run a scene beside copies that differ by rounding
+    Horizon(horizon::Args),
     /// Show what a scene needs and what it does not, its size in memory, and whether its step is stable
     Info(info::Args),
     /// List every error of scene files, and what would stop a later command, without simulating

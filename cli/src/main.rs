@@ -19,8 +19,8 @@ use drape::error::{Error, Kind, Result};
 
 use command_line::{Command, CommandLine};
 use commands::{
-    animate, check, compare, compare_positions, export, gallery, info, meta, render, simulate, stability,
-    study,
+    animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
+    simulate, stability, study, sweep,
 };
 use session::signals::Signals;
 use session::ui::Ui;
@@ -51,6 +51,9 @@ fn execute(arguments: &CommandLine, ui: Ui) -> Result<()> {
         Command::ComparePositions(args) => compare_positions::run(args, &session),
         Command::Info(args) => info::run(args, &session),
         Command::Study(args) => study::run(args, &session),
+        Command::Sweep(args) => sweep::run(args, &session),
+        Command::Choose(args) => choose::run(args, &session),
+        Command::Horizon(args) => horizon::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Schema => meta::schema(&session),
         Command::Completions(args) => meta::completions(args, CommandLine::command(), &session),

@@ -9,9 +9,14 @@
 #![forbid(unsafe_code)]
 
 pub mod csv;
+pub mod npy;
+pub mod run;
 pub mod store;
 pub mod page;
+pub mod sweep;
 pub mod study;
+pub mod horizon;
+pub mod choose;
 pub mod stability_map;
 pub mod gallery;
 pub mod grader;

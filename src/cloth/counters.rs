@@ -4,7 +4,7 @@ use std::ops::AddAssign;
 
 /// What was done, counted, in one step or several. The counts depend on the scene alone, not on the
 /// machine or the number of threads.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Counters {
     /// Steps made.
     pub steps: u64,

@@ -50,7 +50,8 @@ impl Grid {
 }
 
 /// Where the points of `cloth` start, in metres: in the plane y = 1, or upright in the plane
-/// z = 0 but for at most 1 mm per point, without which an upright cloth would fall flat.
+/// z = 0 but for at most 1 mm per point, without which an upright cloth would fall flat; moved by
+/// the offset of the cloth.
 ///
 /// # Errors
 /// [`Kind::Scene`] when the points do not fit in memory.
@@ -65,14 +66,15 @@ pub fn start_of(cloth: &Cloth, grid: Grid, index: usize) -> Vec3 {
     let (i, j) = grid.column_row(index);
     let u = cloth.width * i as f64 / (grid.width - 1) as f64;
     let v = cloth.height * j as f64 / (grid.height - 1) as f64;
-    match cloth.orientation {
+    let place = match cloth.orientation {
         Orientation::Horizontal => Vec3::new(u, 1.0, v),
-        Orientation::Vertical => Vec3::new(u, v, offset(index)),
-    }
+        Orientation::Vertical => Vec3::new(u, v, depth(index)),
+    };
+    place + cloth.offset
 }
 
-/// Offset of point `index` of an upright cloth from its plane, -0.001..=0.001 m.
-fn offset(index: usize) -> f64 {
+/// How far point `index` of an upright cloth stands out of its plane, -0.001..=0.001 m.
+fn depth(index: usize) -> f64 {
     let r = (splitmix64(index as u64) >> 11) as f64 / 9_007_199_254_740_992.0;
     (2.0 * r - 1.0) / 1000.0
 }

@@ -22,12 +22,15 @@
 //! - a distance of 2 · thickness between points (pairs across a box border are never seen);
 //! - no point inside a sphere or below a plane (friction moves along a chord, and the stretch
 //!   limit comes after the objects);
+//! - contact that adds no energy (what a point is put back by becomes a velocity: the finer the step the worse);
+//! - a slide along a plane that does not depend on the step (the way past the crossing point is lost);
 //! - mirror symmetry and independence of the springs' order, once the stretch limit acts;
 //! - time reversal with damping, contact or the stretch limit;
 //! - the same cloth at another number of steps per frame (damping is per step).
 //!
 //! Some have a cure that a scene can ask for: `sim.damping` for the number of steps,
-//! `sim.self_collision` for distances, `sim.contact` for points inside objects, more
+//! `sim.self_collision` for distances, `sim.contact` for points inside objects (`outside`) and for contact that
+//! keeps the laws of inelastic contact with friction (`coulomb`, `docs/contact.md`), more
 //! `sim.stretch_passes` for strain. `sim.start` makes the first step second order. The defaults are
 //! the published method's.
 //!

@@ -1,4 +1,5 @@
-//! Contact with the objects of a scene, for any shape.
+//! Contact with the objects of a scene, for any shape, under `sim.contact` = `report` and `outside`; `coulomb` stands
+//! in `coulomb.rs`.
 //!
 //! Under `sim.contact` = `report` a point that hit an object during the step is put on its surface,
 //! and friction takes away a part of the way from its last position to there. Few points hit an
@@ -22,6 +23,17 @@ use crate::scene::Vec3;
 /// Points that are asked at once.
 const BLOCK: usize = 8;
 
+/// Where a way enters an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Entry {
+    /// The part of the way before it, 0 to 1.
+    pub(super) part: f64,
+    /// The place, on the surface.
+    pub(super) point: Vec3,
+    /// The outward normal there, of length 1.
+    pub(super) normal: Vec3,
+}
+
 /// What an object is to points that collide with it.
 pub(crate) trait Shape: Sync {
     /// Whether a point that moved from `last` to `x` hit the object.
@@ -33,13 +45,12 @@ pub(crate) trait Shape: Sync {
     /// Where point `p` at `x` has to go to be outside the object; `None` if it is.
     fn depenetrate(&self, p: usize, x: Vec3) -> Option<Vec3>;
 
-    /// How far beyond the surface a point is put that hit the object, in metres: the energy bound
-    /// allows for it.
-    fn lift(&self) -> f64;
+    /// Where point `p` enters the object on its `way` from `from`; `None` if it does not, or moves away from it. From
+    /// inside it enters where it starts, at the surface.
+    fn enter(&self, p: usize, from: Vec3, way: Vec3) -> Option<Entry>;
 
-    /// How far one step moves a point that starts inside the object at `x`, in metres: the energy
-    /// bound allows for it.
-    fn depth(&self, x: Vec3) -> f64;
+    /// Its `friction`.
+    fn friction(&self) -> f64;
 
     /// Resolves the contacts of every unpinned point.
     fn resolve_points(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {

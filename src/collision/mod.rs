@@ -5,6 +5,7 @@
 //! `sphere.rs` that says what [`contact::Shape`] asks, and a row of the scene's list.
 
 pub(crate) use contact::Shape;
+use cuboid::Cuboid;
 use plane::Plane;
 
 use crate::cloth::grid::Pins;
@@ -16,7 +17,10 @@ mod axis;
 mod cell;
 mod cell_list;
 mod contact;
+pub(crate) mod coulomb;
+mod cuboid;
 mod neighbors;
+mod pairs;
 mod plane;
 mod same_cell;
 pub(crate) mod self_collision;
@@ -29,6 +33,7 @@ mod uniform_grid;
 enum Collider {
     Plane(Plane),
     Sphere(Sphere),
+    Cuboid(Cuboid),
 }
 
 impl Collider {
@@ -36,6 +41,7 @@ impl Collider {
         match self {
             Self::Plane(plane) => plane,
             Self::Sphere(sphere) => sphere,
+            Self::Cuboid(cuboid) => cuboid,
         }
     }
 }
@@ -54,11 +60,12 @@ impl Colliders {
     /// [`crate::error::Kind::Scene`] when what they remember of each point does not fit in memory.
     pub(crate) fn new(scene: &Scene, x: &Points) -> Result<Self> {
         let contact = scene.sim.contact;
-        let kept_outside = (contact == Contact::Outside).then_some(x);
+        let kept_outside = (contact != Contact::Report).then_some(x);
         let prepare = |collider: &scene::Collider| {
             let prepared = match collider {
                 scene::Collider::Plane(plane) => Collider::Plane(Plane::new(plane, kept_outside)?),
                 scene::Collider::Sphere(sphere) => Collider::Sphere(sphere.clone()),
+                scene::Collider::Cuboid(cuboid) => Collider::Cuboid(Cuboid::new(cuboid)),
             };
             Ok((collider.kind(), prepared))
         };
@@ -68,6 +75,16 @@ impl Colliders {
     /// Whether there is none.
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether points that hit an object during a step are put on its surface right then.
+    pub(crate) fn resolve_hits(&self) -> bool {
+        self.contact != Contact::Coulomb && !self.is_empty()
     }
 
     /// Whether points that are inside an object at the end of a step are put outside.
@@ -85,7 +102,9 @@ impl Colliders {
         pins: &Pins,
         counters: &mut Counters,
     ) {
-        self.of(kind).for_each(|shape| shape.resolve_points(x, last, pins, counters));
+        if self.resolve_hits() {
+            self.of(kind).for_each(|shape| shape.resolve_points(x, last, pins, counters));
+        }
     }
 
     /// The end of a step for the objects of one kind: puts every unpinned point outside, if the scene asks
@@ -102,14 +121,9 @@ impl Colliders {
         }
     }
 
-    /// What each object is to points.
-    pub(crate) fn shapes(&self) -> impl Iterator<Item = &dyn Shape> {
-        self.list.iter().map(|(_, collider)| collider.shape())
-    }
-
-    /// The farthest that one of the objects puts a point beyond its surface, in metres.
-    pub(crate) fn largest_lift(&self) -> f64 {
-        self.shapes().map(Shape::lift).fold(0.0, f64::max)
+    /// What each object is to points, with its kind.
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = (ColliderKind, &dyn Shape)> {
+        self.list.iter().map(|(kind, collider)| (*kind, collider.shape()))
     }
 
     /// Puts points that hit a plane so many metres above it, on the side from which they came.

@@ -13,6 +13,7 @@ use std::array;
 use std::ops::Range;
 
 use super::cell_list::CellKey;
+use super::pairs::Pairs;
 use super::separation::{Pushes, Separation};
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::Pins;
@@ -68,6 +69,17 @@ impl Neighbors {
                 x.set(p, position);
                 counters.self_collision_moves += 1;
             }
+        }
+    }
+
+    /// Finds the pairs that are too close at `x`.
+    pub(super) fn find_pairs(&mut self, x: &Points, pins: &Pins, pairs: &mut Pairs, counters: &mut Counters) {
+        self.grid.update(x);
+        self.find_around();
+        counters.boxes_searched += self.around.len() as u64;
+        for p in 0..x.len() {
+            counters.pairs_tested += self.find_close(p, x);
+            self.close.iter().filter(|&&q| p < q).for_each(|&q| pairs.add(p, q, x, pins));
         }
     }
 

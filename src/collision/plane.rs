@@ -1,6 +1,6 @@
 //! The plane: a point that went through it is put back on the side from which it came.
 
-use super::contact::Shape;
+use super::contact::{Entry, Shape};
 use crate::cloth::{Points, dot, filled, len};
 use crate::error::Result;
 use crate::scene::{self, Vec3};
@@ -41,6 +41,11 @@ impl Plane {
         Ok(Self { point, normal, friction, offset: OFFSET, above })
     }
 
+    /// The normal on the side of point `p`.
+    fn outward(&self, p: usize) -> Vec3 {
+        if self.above[p] { self.normal } else { -self.normal }
+    }
+
     /// The height of `last` above the plane, in metres, and the part of the way from there to `x`
     /// at which it crosses the plane; not finite for a way along the plane.
     #[inline(always)]
@@ -66,18 +71,24 @@ impl Shape for Plane {
     }
 
     fn depenetrate(&self, p: usize, x: Vec3) -> Option<Vec3> {
-        let normal = if self.above[p] { self.normal } else { -self.normal };
+        let normal = self.outward(p);
         let side = dot(x - self.point, normal);
         let lift = LIFT * (x.amax() + self.point.amax());
         (side < 0.0).then(|| x + normal * (lift - side))
     }
 
-    fn lift(&self) -> f64 {
-        self.offset
+    fn enter(&self, p: usize, from: Vec3, way: Vec3) -> Option<Entry> {
+        let normal = self.outward(p);
+        let (height, change) = (dot(from - self.point, normal), dot(way, normal));
+        if change >= 0.0 || height + change >= 0.0 {
+            return None;
+        }
+        let part = height.max(0.0) / -change;
+        let point = from + way * part;
+        Some(Entry { part, point: self.depenetrate(p, point).unwrap_or(point), normal })
     }
 
-    /// A point beyond a plane stays where it is.
-    fn depth(&self, _x: Vec3) -> f64 {
-        0.0
+    fn friction(&self) -> f64 {
+        self.friction
     }
 }

@@ -8,6 +8,7 @@
 use std::ops::{Add, Range};
 
 use super::cell::{Cell, PADDING};
+use super::pairs::Pairs;
 use super::separation::Separation;
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::{Grid, Pins};
@@ -65,6 +66,19 @@ impl SameCell {
         counters.pairs_tested += pairs;
         counters.self_collision_moves += moves;
         self.write_back(x);
+    }
+
+    /// Finds the pairs of each cell that are too close at `x`.
+    pub(super) fn find_pairs(&mut self, x: &Points, pins: &Pins, pairs: &mut Pairs, counters: &mut Counters) {
+        self.grid.update(x);
+        counters.boxes_searched += self.grid.shared_cells() as u64;
+        for index in 0..self.grid.shared_cells() {
+            let members = self.grid.members(index);
+            for (place, &p) in members.iter().enumerate() {
+                members[place + 1..].iter().for_each(|&q| pairs.add(p, q, x, pins));
+            }
+            counters.pairs_tested += (members.len() * (members.len() - 1) / 2) as u64;
+        }
     }
 
     /// Takes over the positions of the cells in which a member moved.

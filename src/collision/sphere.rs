@@ -1,7 +1,7 @@
 //! The sphere: a point inside it is put on its surface.
 
-use super::contact::Shape;
-use crate::cloth::len;
+use super::contact::{Entry, Shape};
+use crate::cloth::{dot, len};
 use crate::scene::{Sphere, Vec3};
 
 impl Shape for Sphere {
@@ -28,11 +28,26 @@ impl Shape for Sphere {
         Some(self.origin + direction * self.radius)
     }
 
-    fn lift(&self) -> f64 {
-        0.0
+    /// The first solution of `|e + s way| = radius`, with `e` from the centre to the start.
+    fn enter(&self, _p: usize, from: Vec3, way: Vec3) -> Option<Entry> {
+        let e = from - self.origin;
+        let (distance, approach) = (len(e), dot(e, way));
+        if approach >= 0.0 {
+            return None;
+        }
+        // Of the height above the surface, not of squares of the radius: a ball may be large.
+        let outside = ((distance - self.radius) * (distance + self.radius)).max(0.0);
+        let discriminant = approach * approach - dot(way, way) * outside;
+        let part =
+            if discriminant < 0.0 { f64::INFINITY } else { outside / (discriminant.sqrt() - approach) };
+        (part <= 1.0).then(|| {
+            let e = e + way * part;
+            let normal = e / len(e);
+            Entry { part, point: self.origin + normal * self.radius, normal }
+        })
     }
 
-    fn depth(&self, x: Vec3) -> f64 {
-        (self.radius - len(x - self.origin)).max(0.0)
+    fn friction(&self) -> f64 {
+        self.friction
     }
 }

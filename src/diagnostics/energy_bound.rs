@@ -15,9 +15,11 @@
 //!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
 //!   points together; but where neighbours start too close, nothing did: for each such point
 //!   `m (2 thickness - l)² / (2 T dt²)`;
-//! - an object that puts points a little beyond its surface (a plane): `M (lift / dt)² / 2`;
-//! - an object that puts points in one step outside that start inside it (a sphere): `m (depth / dt)² / 2` each;
-//! - rounding.
+//! - rounding; in binary32 it moves each end of a spring by up to 2⁻²⁴ of its place.
+//!
+//! Objects have none: contact only takes energy. So a run in which the speed that `report` and `outside` give to a point
+//! when they put it on a surface adds up to more than the rest of the bound ends in an error, too. Under `coulomb`
+//! pushes give no speed, and points that start too close are not pushed.
 //!
 //! A blow-up that the stretch limit holds below this bound is visible only in the energy ledger: in every
 //! step the springs put in what the limit takes out. So where a ledger is recorded, what springs and
@@ -37,8 +39,7 @@ use super::stability::is_bounded_and_always_stable;
 use crate::cloth::grid::Grid;
 use crate::cloth::springs::Springs;
 use crate::cloth::{Params, Points, len};
-use crate::collision::Colliders;
-use crate::scene::{Cloth, Scene, SelfCollision};
+use crate::scene::{Cloth, Contact, Precision, Scene, SelfCollision};
 
 /// Largest coordinate, in metres: as large as any number that a scene may hold.
 pub(crate) const RANGE: f64 = 1e15;
@@ -49,56 +50,51 @@ const ROUNDING: f64 = 1e-9;
 /// The part of the bound that a scene gives, whatever the start.
 #[derive(Clone, Debug)]
 pub(crate) struct Allowance {
-    /// For the finite step, self-collision and objects that lift points, in J.
+    /// For the finite step and self-collision, in J.
     fixed: f64,
     grid: Grid,
     /// Distance that self-collision keeps, in metres; 0 without it.
     distance: f64,
     /// Whether what springs and gravity put in is bounded, too.
     bounds_exchange: bool,
+    /// Whether contact is `coulomb`.
+    coulomb: bool,
+    /// Energy of the springs of a point for the square of what rounding moves it by, in N/m; 0 in binary64.
+    rounding: f64,
 }
 
 impl Allowance {
     /// The allowance of the cloth of `scene`, which has `springs`.
-    pub(crate) fn new(
-        scene: &Scene,
-        cloth: &Cloth,
-        springs: &Springs,
-        colliders: &Colliders,
-        params: &Params,
-    ) -> Self {
+    pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params) -> Self {
         let Params { mass, dt, .. } = *params;
         let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
+        let coulomb = scene.sim.contact == Contact::Coulomb;
         let distance = match scene.sim.self_collision {
             SelfCollision::Off => 0.0,
+            _ if coulomb => 0.0,
             _ => 2.0 * cloth.thickness,
         };
         let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
         fixed += motion(all, distance / params.steps_per_frame / dt) + stretched_to(distance, springs);
-        fixed += motion(all, colliders.largest_lift() / dt);
         let bounds_exchange = !is_bounded_and_always_stable(cloth, &scene.sim);
-        Self { fixed, grid: springs.grid, distance, bounds_exchange }
+        let single = scene.sim.precision == Precision::F32;
+        // A point owns six springs, and each may be longer by 2 √3 times the rounding of a coordinate.
+        let rounding = if single { 36.0 * cloth.ks } else { 0.0 };
+        Self { fixed, grid: springs.grid, distance, bounds_exchange, coulomb, rounding }
     }
 
     /// The bound of a cloth that starts at `x` with `energy`.
-    pub(crate) fn energy_bound(
-        &self,
-        x: &Points,
-        energy: Energy,
-        colliders: &Colliders,
-        params: &Params,
-    ) -> EnergyBound {
+    pub(crate) fn energy_bound(&self, x: &Points, energy: Energy, params: &Params) -> EnergyBound {
         let mut allowance = self.fixed + energy.kinetic + energy.spring;
         let Params { dt, steps_per_frame, .. } = *params;
         for p in 0..x.len() {
             let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
             allowance += motion(params.mass, depth / (dt * steps_per_frame.sqrt()));
+            let rounded = 0.5 * f64::from(f32::EPSILON) * x.get(p).amax();
+            allowance += self.rounding * rounded * rounded;
         }
-        for shape in colliders.shapes() {
-            let speed = |p| shape.depth(x.get(p)) / params.dt;
-            allowance += (0..x.len()).map(|p| motion(params.mass, speed(p))).sum::<f64>();
-        }
-        EnergyBound { start: energy.total(), allowance, bounds_exchange: self.bounds_exchange }
+        let Self { bounds_exchange, coulomb, .. } = *self;
+        EnergyBound { start: energy.total(), allowance, bounds_exchange, coulomb }
     }
 }
 
@@ -127,6 +123,7 @@ pub(crate) struct EnergyBound {
     allowance: f64,
     /// Whether it bounds what springs and gravity put in, too.
     bounds_exchange: bool,
+    coulomb: bool,
 }
 
 impl EnergyBound {
@@ -143,9 +140,17 @@ impl EnergyBound {
         self.limit(energy) - self.start
     }
 
+    /// What springs and gravity put in together, in J. Under `coulomb` less what contact took: of a point at rest it
+    /// takes in every step what gravity gave it.
+    pub(crate) fn put_in(&self, ledger: Ledger) -> f64 {
+        let colliders: f64 = ledger.colliders.entries().map(|(_, energy)| energy).sum();
+        let taken = if self.coulomb { ledger.self_collision + colliders } else { 0.0 };
+        ledger.gravity + ledger.springs + taken
+    }
+
     /// Whether springs and gravity put in more than they can.
     pub(crate) fn is_exceeded_by_exchange(&self, ledger: Ledger, energy: Energy) -> bool {
-        self.bounds_exchange && ledger.gravity + ledger.springs > self.exchange_limit(energy)
+        self.bounds_exchange && self.put_in(ledger) > self.exchange_limit(energy)
     }
 
     /// Whether `energy`, with or without the springs', is more than there can be.

@@ -49,6 +49,19 @@ impl Ledger {
         before.into_iter().chain(self.colliders.entries()).chain([("stretch_limit", self.stretch_limit)])
     }
 
+    /// The ledger with these entries, in the order of [`Ledger::entries`]; nothing if there are more or fewer.
+    pub(crate) fn from_entries(entries: &[f64]) -> Option<Self> {
+        let mut ledger = Self::default();
+        let Self { gravity, springs, damping, self_collision, colliders, stretch_limit } = &mut ledger;
+        let before = [gravity, springs, damping, self_collision].into_iter();
+        let all: Vec<&mut f64> = before.chain(colliders.values_mut()).chain([stretch_limit]).collect();
+        if all.len() != entries.len() {
+            return None;
+        }
+        all.into_iter().zip(entries).for_each(|(entry, &value)| *entry = value);
+        Some(ledger)
+    }
+
     /// All entries together: the change of the total energy but for rounding.
     pub fn sum(self) -> f64 {
         self.entries().map(|(_, entry)| entry).sum()

@@ -1,8 +1,10 @@
 //! What is measured of a cloth: energies, extremes, rest, and whether its step is stable.
 
+pub mod advice;
 pub mod energy;
 pub(crate) mod energy_bound;
 pub mod extremes;
+pub mod geometry;
 pub mod ledger;
 pub mod rest;
 pub mod stability;

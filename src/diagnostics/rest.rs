@@ -2,12 +2,16 @@
 //!
 //! A cloth in contact, or held by the stretch limit, may jitter within a frame although every frame
 //! ends alike. So both measures are taken over frames: the mean velocity of a point in
-//! a frame, and what changed it since the frame before, which is all that acts on the point:
-//! forces, contacts and the stretch limit. The second tells rest from the turning point of a swing.
+//! a frame, and the acceleration by what acts on it but drag: what changed its velocity since the frame before, and
+//! what damping took. At rest, forces, contact and the stretch limit balance each other, and drag has no part in
+//! it: a cloth that falls at its terminal speed is held by drag alone, however slow it is. The second measure also
+//! tells rest from the turning point of a swing.
+//!
+//! Two frames may be alike by chance, so a cloth is at rest when it was quiet for [`QUIET`] seconds.
 
-use crate::cloth::{Points, len};
+use crate::cloth::{Params, Points, damping_rate, len};
 use crate::error::Result;
-use crate::scene::{Cloth, Sim};
+use crate::scene::{Cloth, Damping, Sim};
 
 /// Largest speed at rest, in sides of the cloth per second: 1 mm/s for a cloth of 1 m.
 const SPEED: f64 = 1e-3;
@@ -15,19 +19,31 @@ const SPEED: f64 = 1e-3;
 /// Largest residual force on a point at rest, as a part of its weight.
 const RESIDUAL: f64 = 0.01;
 
+/// For how long a cloth at rest was quiet, in seconds.
+pub const QUIET: f64 = 0.5;
+
 /// What a cloth still does at the end of a frame.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Motion {
     /// Largest mean speed of a point in the frame, in m/s.
     pub speed: f64,
-    /// Largest residual acceleration of a point, in m/s².
+    /// Largest acceleration of a point by all that acts on it but drag, in m/s².
     pub residual: f64,
+}
+
+impl Motion {
+    /// The larger of both measures.
+    fn most(self, other: Self) -> Self {
+        Self { speed: self.speed.max(other.speed), residual: self.residual.max(other.residual) }
+    }
 }
 
 /// Looks at a cloth frame by frame.
 #[derive(Clone, Debug)]
 pub struct RestWatch {
     fps: f64,
+    /// The rate at which damping slows a point down, per second.
+    drag: f64,
     /// The most at rest.
     limit: Motion,
     /// Positions at the last frame.
@@ -35,6 +51,9 @@ pub struct RestWatch {
     /// How the points moved in the last frame, if two were seen.
     moved: Points,
     frames: u64,
+    /// The last frames in which the cloth was quiet, and the most that it did in them.
+    quiet: u64,
+    most: Motion,
 }
 
 impl RestWatch {
@@ -46,13 +65,40 @@ impl RestWatch {
         let (side, g) = (cloth.width.max(cloth.height), len(sim.gravity));
         // Without weight the unit is a side of the cloth per second, squared.
         let acceleration = if g > 0.0 { g } else { side };
-        let limit = Motion { speed: SPEED * side, residual: RESIDUAL * acceleration };
-        Ok(Self { fps: sim.fps, limit, x: x.clone(), moved: Points::zeros(x.len())?, frames: 0 })
+        let drag = match sim.damping {
+            Damping::PerStep => cloth.damping / 100.0 / Params::new(cloth, sim).dt,
+            Damping::PerSecond => damping_rate(cloth.damping),
+        };
+        Ok(Self {
+            fps: sim.fps,
+            drag,
+            limit: Motion { speed: SPEED * side, residual: RESIDUAL * acceleration },
+            x: x.clone(),
+            moved: Points::zeros(x.len())?,
+            frames: 0,
+            quiet: 0,
+            most: Motion::default(),
+        })
+    }
+
+    /// A watch over a cloth that is in motion: at `x`, from `before` at the start of the frame.
+    ///
+    /// # Errors
+    /// As [`RestWatch::new`].
+    pub fn in_motion(cloth: &Cloth, sim: &Sim, before: &Points, x: &Points) -> Result<Self> {
+        let mut watch = Self::new(cloth, sim, before)?;
+        watch.look(x);
+        Ok(watch)
     }
 
     /// The most that a cloth at rest does.
     pub fn limit(&self) -> Motion {
         self.limit
+    }
+
+    /// The most that the cloth did since it has been quiet.
+    pub fn most(&self) -> Motion {
+        self.most
     }
 
     /// What the points, now at `x`, did in the frame that ended.
@@ -61,17 +107,26 @@ impl RestWatch {
         for p in 0..x.len() {
             let moved = x.get(p) - self.x.get(p);
             farthest = farthest.max(len(moved));
-            change = change.max(len(moved - self.moved.get(p)));
+            change = change.max(len((moved - self.moved.get(p)) * self.fps + moved * self.drag));
             self.moved.set(p, moved);
         }
         self.x.copy_from(x);
         self.frames += 1;
-        Motion { speed: farthest * self.fps, residual: change * self.fps * self.fps }
+        let motion = Motion { speed: farthest * self.fps, residual: change * self.fps };
+        let limit = self.limit;
+        // After one frame nobody knows the change.
+        if self.frames > 1 && motion.speed <= limit.speed && motion.residual <= limit.residual {
+            self.quiet += 1;
+            self.most = self.most.most(motion);
+        } else {
+            (self.quiet, self.most) = (0, Motion::default());
+        }
+        motion
     }
 
-    /// Whether a cloth that does `motion` is at rest. After one frame nobody knows.
-    pub fn is_rest(&self, motion: Motion) -> bool {
-        self.frames > 1 && motion.speed <= self.limit.speed && motion.residual <= self.limit.residual
+    /// Whether the cloth is at rest: it was quiet for [`QUIET`] seconds, and at least two frames.
+    pub fn is_rest(&self) -> bool {
+        self.quiet as f64 >= (QUIET * self.fps).max(2.0)
     }
 }
 
@@ -80,48 +135,60 @@ mod tests {
     use super::*;
     use crate::scene::{Scene, load_text};
 
-    fn scene() -> Scene {
-        let text = r#"{"cloth": {"width": 2, "height": 1, "num_width_points": 2, "num_height_points": 2,
-            "thickness": 0, "orientation": 0, "damping": 0, "density": 1, "ks": 1,
-            "enable_structural": true, "enable_shearing": true, "enable_bending": true}}"#;
-        load_text("a.json", text, &Default::default()).unwrap().scene
+    fn scene(damping: f64) -> Scene {
+        let text = format!(
+            r#"{{"cloth": {{"width": 2, "height": 1, "num_width_points": 2, "num_height_points": 2,
+            "thickness": 0, "orientation": 0, "damping": {damping}, "density": 1, "ks": 1,
+            "enable_structural": true, "enable_shearing": true, "enable_bending": true}}}}"#
+        );
+        load_text("a.json", &text, &Default::default()).unwrap().scene
     }
 
-    /// The motion in the last of three frames in which one point goes by `steps` metres each.
-    fn last_motion(steps: [f64; 3]) -> (Motion, bool) {
-        let scene = scene();
+    /// The motion in the last of the frames in which one point goes by `steps` metres each.
+    fn last_motion(damping: f64, steps: &[f64]) -> (Motion, bool) {
+        let scene = scene(damping);
         let mut x = Points::zeros(4).unwrap();
         let mut watch = RestWatch::new(scene.cloth.as_ref().unwrap(), &scene.sim, &x).unwrap();
-        let mut motion = Motion { speed: 0.0, residual: 0.0 };
+        let mut motion = Motion::default();
         for step in steps {
             x.z[2] += step;
             motion = watch.look(&x);
         }
-        (motion, watch.is_rest(motion))
+        (motion, watch.is_rest())
     }
 
     #[test]
     fn rest_is_slow_and_without_force() {
         let slow = 2e-3 / 90.0;
-        let (motion, rest) = last_motion([0.9 * slow; 3]);
+        let (motion, rest) = last_motion(0.0, &[0.9 * slow; 60]);
         assert!(rest && (motion.speed - 1.8e-3).abs() < 1e-12 && motion.residual < 1e-9, "{motion:?}");
-        assert!(!last_motion([1.1 * slow; 3]).1, "too fast for a cloth of 2 m");
-        let (motion, rest) = last_motion([0.9 * slow, 0.9 * slow, -0.9 * slow]);
+        assert!(!last_motion(0.0, &[1.1 * slow; 60]).1, "too fast for a cloth of 2 m");
+        let (motion, rest) = last_motion(0.0, &[&[0.9 * slow; 60][..], &[-0.9 * slow]].concat());
         assert!(
             !rest && (motion.residual - 2.0 * 1.8e-3 * 90.0).abs() < 1e-9,
             "the turn of a swing: {motion:?}"
         );
-        assert!(last_motion([1.0, 0.0, 0.0]).1, "all that was before does not matter");
     }
 
     #[test]
-    fn one_frame_tells_nothing() {
-        let scene = scene();
-        let x = Points::zeros(4).unwrap();
-        let mut watch = RestWatch::new(scene.cloth.as_ref().unwrap(), &scene.sim, &x).unwrap();
-        let motion = watch.look(&x);
-        assert!(!watch.is_rest(motion));
-        let motion = watch.look(&x);
-        assert!(watch.is_rest(motion));
+    fn what_drag_alone_holds_is_not_at_rest() {
+        // A terminal speed of 1.8 mm/s at 20 % a step: 2700 steps a second lose 540 times the speed.
+        let (motion, rest) = last_motion(20.0, &[1.8e-3 / 90.0; 60]);
+        assert!(!rest && (motion.residual - 1.8e-3 * 540.0).abs() < 1e-9, "{motion:?}");
+        assert!(last_motion(20.0, &[1e-7; 60]).1, "slower than drag shows");
+    }
+
+    #[test]
+    fn half_a_second_of_quiet_is_rest() {
+        assert!(!last_motion(0.0, &[0.0; 45]).1, "the first frame tells nothing");
+        assert!(last_motion(0.0, &[0.0; 46]).1);
+        assert!(
+            !last_motion(0.0, &[&[0.0; 40][..], &[1.0], &[0.0; 45]].concat()).1,
+            "frames alike by chance"
+        );
+        assert!(
+            last_motion(0.0, &[&[1.0][..], &[0.0; 47]].concat()).1,
+            "all that was before does not matter"
+        );
     }
 }

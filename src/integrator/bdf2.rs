@@ -99,6 +99,16 @@ impl Integrator for Bdf2 {
         self.memory[2].x.fill(f64::NAN);
     }
 
+    /// What moved the point after the step changed its velocity, too.
+    fn displacement(&self, p: usize, x: Vec3, _last: Vec3, dt: f64) -> Vec3 {
+        let [v, _, ended] = &self.memory;
+        v.get(p) * dt + (x - ended.get(p))
+    }
+
+    fn forget(&mut self, p: usize) {
+        self.memory[2].x[p] = f64::NAN;
+    }
+
     fn decompose(&self, p: usize, before: Vec3, moved: Vec3, params: &Params) -> [Vec3; 2] {
         let undamped = params.dt * params.dt / params.mass;
         let damped = self.damped.get(p);

@@ -77,6 +77,15 @@ pub(crate) trait Integrator: BoxedClone + Debug + Send + Sync {
     /// into what damping changed of it, in metres, and the force that explains the rest, in N.
     fn decompose(&self, p: usize, before: Vec3, moved: Vec3, params: &Params) -> [Vec3; 2];
 
+    /// How far point `p`, which is at `x` and came from `last`, would go in a step of `dt` seconds at the velocity that
+    /// it has now, at the end of the step.
+    fn displacement(&self, _p: usize, x: Vec3, last: Vec3, _dt: f64) -> Vec3 {
+        x - last
+    }
+
+    /// Discards what it remembers of point `p`, which goes on with the velocity `(x - last) / dt`.
+    fn forget(&mut self, _p: usize) {}
+
     /// Whether the energy of the springs counts against the energy bound.
     fn bounds_spring_energy(&self) -> bool {
         true

@@ -115,6 +115,16 @@ impl Integrator for Rk4 {
         self.memory[1].x.fill(f64::NAN);
     }
 
+    /// What moved the point after the step changed its velocity, too.
+    fn displacement(&self, p: usize, x: Vec3, _last: Vec3, dt: f64) -> Vec3 {
+        let [v, ended] = &self.memory;
+        v.get(p) * dt + (x - ended.get(p))
+    }
+
+    fn forget(&mut self, p: usize) {
+        self.memory[1].x[p] = f64::NAN;
+    }
+
     fn decompose(&self, p: usize, before: Vec3, moved: Vec3, params: &Params) -> [Vec3; 2] {
         let damped = self.damped.get(p);
         [damped, (moved - before - damped) * (params.mass / (params.dt * params.dt))]

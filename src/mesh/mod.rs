@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::scene::{Collider, Needs, Vec3};
 
 mod cloth;
+mod cuboid;
 mod lines;
 mod plane;
 mod sphere;
@@ -66,6 +67,7 @@ impl Mesh {
         match collider {
             Collider::Plane(plane) => (Self::plane(plane, needs), Placement::WORLD),
             Collider::Sphere(sphere) => (Self::sphere(sphere, needs), Placement::of_sphere(sphere)),
+            Collider::Cuboid(cuboid) => (Self::cuboid(cuboid, needs), Placement::WORLD),
         }
     }
 

@@ -93,6 +93,16 @@ impl Framebuffer {
         bytes.flat_map(|[r, g, b, _]| [r, g, b]).collect()
     }
 
+    /// As [`Framebuffer::rgb`], with 255 after each pixel's blue.
+    pub fn rgba(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.width * self.height * 4);
+        self.rows(|tile| &tile.color).for_each(|color| {
+            let [r, g, b, _] = color.to_le_bytes();
+            bytes.extend_from_slice(&[r, g, b, 255]);
+        });
+        bytes
+    }
+
     /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.
     pub fn depth(&self) -> Vec<f32> {
         self.rows(|tile| &tile.depth).copied().collect()

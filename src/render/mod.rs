@@ -38,6 +38,15 @@ pub struct Picture {
     pub stats: Stats,
 }
 
+impl Picture {
+    /// A hash over the bytes of its colours.
+    pub fn hash(&self) -> u64 {
+        let mut hash = StateHash::default();
+        hash.write(&self.rgb);
+        hash.finish()
+    }
+}
+
 /// A scene with its textures, ready to be drawn at any positions of its cloth.
 #[derive(Clone, Debug)]
 pub struct Renderer {
@@ -50,15 +59,17 @@ impl Renderer {
     /// # Errors
     /// A texture that is missing or cannot be decoded; more than [`MAX_SAMPLES`].
     pub fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
-        let [width, height] = scene.render.size.map(u64::from);
-        let samples = width * height * u64::from(scene.render.samples);
-        if samples > MAX_SAMPLES {
-            let message =
-                format!("{width} x {height} pixels of {} samples are too many", scene.render.samples);
-            let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
-            return Err(Error::new(Kind::Scene, message).with_help(help));
-        }
+        check_samples(scene)?;
         Ok(Self { programs: Programs::new(scene, source)? })
+    }
+
+    /// Draws `scene` from now on. Textures that were read already are kept, so `source` must have the same.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`]; then the scene is still the one before.
+    pub fn change_scene(&mut self, scene: &Scene, source: &TextureSource) -> Result<()> {
+        check_samples(scene)?;
+        self.programs.change_scene(scene, source)
     }
 
     /// Takes the texels of all textures into `hash`.
@@ -123,4 +134,15 @@ impl Renderer {
     fn background(&self) -> [f32; 3] {
         round(self.programs.scene.render.background)
     }
+}
+
+/// Checks that the picture of `scene` has at most [`MAX_SAMPLES`].
+fn check_samples(scene: &Scene) -> Result<()> {
+    let [width, height] = scene.render.size.map(u64::from);
+    if width * height * u64::from(scene.render.samples) <= MAX_SAMPLES {
+        return Ok(());
+    }
+    let message = format!("{width} x {height} pixels of {} samples are too many", scene.render.samples);
+    let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
+    Err(Error::new(Kind::Scene, message).with_help(help))
 }

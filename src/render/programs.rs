@@ -37,18 +37,47 @@ impl Programs {
     /// # Errors
     /// A texture that is missing or cannot be decoded.
     pub(super) fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
-        let images = Images::of(scene);
-        let texture = |name: String| Ok((name.clone(), source.texture(&name)?));
-        let cubemap = |name: String| Ok((name.clone(), source.cubemap(&name)?));
         let origin = camera::origin(scene)?;
         let scene = moved(scene, origin)?;
-        Ok(Self {
-            camera: Camera::of(&scene)?,
-            origin,
-            scene,
-            textures: images.textures.into_iter().map(texture).collect::<Result<_>>()?,
-            cubemaps: images.environments.into_iter().map(cubemap).collect::<Result<_>>()?,
-        })
+        let camera = Camera::of(&scene)?;
+        let mut programs = Self { scene, origin, camera, textures: Vec::new(), cubemaps: Vec::new() };
+        programs.read_missing(source)?;
+        Ok(programs)
+    }
+
+    /// The same for another scene; what was read is kept and not read again.
+    ///
+    /// # Errors
+    /// As [`Programs::new`]; then nothing but what was read has changed.
+    pub(super) fn change_scene(&mut self, scene: &Scene, source: &TextureSource) -> Result<()> {
+        let origin = camera::origin(scene)?;
+        let scene = moved(scene, origin)?;
+        let camera = Camera::of(&scene)?;
+        let before = std::mem::replace(&mut self.scene, scene);
+        if let Err(error) = self.read_missing(source) {
+            self.scene = before;
+            return Err(error);
+        }
+        (self.camera, self.origin) = (camera, origin);
+        Ok(())
+    }
+
+    /// Reads the textures that the scene needs and that were not read yet.
+    fn read_missing(&mut self, source: &TextureSource) -> Result<()> {
+        let images = Images::of(&self.scene);
+        for name in images.textures {
+            if find(&self.textures, &name).is_none() {
+                let texture = source.texture(&name)?;
+                self.textures.push((name, texture));
+            }
+        }
+        for name in images.environments {
+            if find(&self.cubemaps, &name).is_none() {
+                let cubemap = source.cubemap(&name)?;
+                self.cubemaps.push((name, cubemap));
+            }
+        }
+        Ok(())
     }
 
     /// Takes the texels of all textures into `hash`.
@@ -177,6 +206,7 @@ fn moved(scene: &Scene, origin: Vec3) -> Result<Scene> {
         match collider {
             Collider::Plane(plane) => plane.point -= origin,
             Collider::Sphere(sphere) => sphere.origin -= origin,
+            Collider::Cuboid(cuboid) => cuboid.origin -= origin,
         }
     }
     Ok(moved)

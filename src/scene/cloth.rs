@@ -3,9 +3,10 @@
 use super::Material;
 use super::json::choice::{choices, numbered};
 use super::json::keys::keys;
-use super::json::list::GridPoints;
-use super::json::range::{NOT_NEGATIVE, POSITIVE, from_to};
+use super::json::list::{GridPoints, Vector};
+use super::json::range::{ANY, NOT_NEGATIVE, POSITIVE, from_to};
 use super::json::scalar::{Count, Flag};
+use crate::math::Vec3;
 
 /// Most points of a cloth: as many as 2048 x 2048, whose triangles can be numbered in 24 bits.
 pub const MAX_POINTS: usize = 1 << 22;
@@ -34,6 +35,10 @@ keys! {
         thickness: f64 => [required] NOT_NEGATIVE.unit("m");
         /// How the cloth starts.
         orientation: Orientation => [required] numbered::<Orientation>();
+        /// Added to the place of every point at the start, pinned ones too.
+        offset: Vec3 => [Vec3::zeros()] Vector(ANY.unit("m"));
+        /// The velocity at the start of every point that is not pinned.
+        velocity: Vec3 => [Vec3::zeros()] Vector(ANY.unit("m/s"));
         /// Points that never move, as grid points `[x, y]` counted from 0: `[[0, 0], [49, 0]]` holds two
         /// corners of 50 x 50 points.
         ///

@@ -5,11 +5,11 @@ use std::ops::{Index, IndexMut};
 use serde::{Serialize, Serializer};
 
 use super::Material;
-use super::json::key::Row;
+use super::json::key::{Listed, Row};
 use super::json::keys::keys;
 use super::json::list::{Counts, Direction, Vector};
 use super::json::object::Object;
-use super::json::range::{ANY, POSITIVE, from_to};
+use super::json::range::{ANY, NOT_NEGATIVE, POSITIVE};
 use super::json::scalar::Count;
 use crate::math::Vec3;
 
@@ -87,10 +87,24 @@ macro_rules! colliders {
                 }
             }
 
-            /// Share of the sliding motion that contact removes (0..=1), to be changed.
+            /// Its `friction`.
+            pub fn friction(&self) -> f64 {
+                match self {
+                    $(Self::$kind(collider) => collider.friction,)*
+                }
+            }
+
+            /// Its `friction`, to be changed.
             pub fn friction_mut(&mut self) -> &mut f64 {
                 match self {
                     $(Self::$kind(collider) => &mut collider.friction,)*
+                }
+            }
+
+            /// Adds every key of its own with its value, below `path`.
+            pub(super) fn list(&self, path: &str, list: &mut Vec<(String, serde_json::Value)>) {
+                match self {
+                    $(Self::$kind(collider) => collider.list(path, list),)*
                 }
             }
 
@@ -111,6 +125,8 @@ colliders! {
     Plane = "plane", "planes";
     /// A ball that the cloth falls on, or a list of balls.
     Sphere = "sphere", "spheres";
+    /// A box that the cloth falls on, or a list of boxes. Its edges lie along the axes.
+    Cuboid = "box", "boxes";
 }
 
 keys! {
@@ -120,8 +136,9 @@ keys! {
         point: Vec3 => [required] Vector(ANY.unit("m")), local;
         /// The direction at right angles to the plane, of any length.
         normal: Vec3 => [required] Direction(ANY), local;
-        /// Share of the sliding motion that contact removes: 0 is smooth, 1 holds a point where it was a step before.
-        friction: f64 => [required] from_to(0.0, 1.0);
+        /// Share of the sliding motion that contact removes, 0 to 1: 0 is smooth, 1 holds a point where it was a step
+        /// before. With `sim.contact` = `coulomb` the coefficient of friction μ, 0 and up.
+        friction: f64 => [required] NOT_NEGATIVE;
         /// What the plane looks like. A key that is left out is as in the scene's `material`.
         material: Material => [inherited] Material::read_grey;
     }
@@ -140,8 +157,9 @@ keys! {
         origin: Vec3 => [required] Vector(ANY.unit("m")), local;
         /// The radius. The drawn ball has 0.92 of it, so that the flat triangles of the cloth do not cut into it.
         radius: f64 => [required] POSITIVE.unit("m");
-        /// Share of the sliding motion that contact removes: 0 is smooth, 1 holds a point where it was a step before.
-        friction: f64 => [required] from_to(0.0, 1.0);
+        /// Share of the sliding motion that contact removes, 0 to 1: 0 is smooth, 1 holds a point where it was a step
+        /// before. With `sim.contact` = `coulomb` the coefficient of friction μ, 0 and up.
+        friction: f64 => [required] NOT_NEGATIVE;
         /// Latitude and longitude counts of the drawn ball.
         resolution: [u32; 2] => [[40, 40]] Counts(Count(2, MAX_RESOLUTION), Count(3, MAX_RESOLUTION)), local;
         /// What the ball looks like. A key that is left out is as in the scene's `material`.
@@ -152,6 +170,32 @@ keys! {
 impl Sphere {
     fn collides_like(&self, other: &Self) -> bool {
         Self { material: self.material.clone(), resolution: self.resolution, ..other.clone() } == *self
+    }
+}
+
+keys! {
+    /// A box with edges along the axes, which the cloth collides with.
+    pub struct Cuboid {
+        /// The centre `[x, y, z]`.
+        origin: Vec3 => [required] Vector(ANY.unit("m")), local;
+        /// Lengths of the edges along x, y and z.
+        size: Vec3 => [required] Vector(POSITIVE.unit("m")), local;
+        /// Share of the sliding motion that contact removes, 0 to 1: 0 is smooth, 1 holds a point where it was a step
+        /// before. With `sim.contact` = `coulomb` the coefficient of friction μ, 0 and up.
+        friction: f64 => [required] NOT_NEGATIVE;
+        /// What the box looks like. A key that is left out is as in the scene's `material`.
+        material: Material => [inherited] Material::read;
+    }
+}
+
+impl Cuboid {
+    /// The corner with the smallest coordinates and the one with the largest.
+    pub fn corners(&self) -> [Vec3; 2] {
+        [self.origin - self.size * 0.5, self.origin + self.size * 0.5]
+    }
+
+    fn collides_like(&self, other: &Self) -> bool {
+        Self { material: self.material.clone(), ..other.clone() } == *self
     }
 }
 
@@ -174,6 +218,13 @@ impl<T: Copy> PerKind<T> {
     /// Each value with the plural of its kind's name.
     pub fn entries(self) -> impl Iterator<Item = (&'static str, T)> {
         ColliderKind::ALL.iter().map(move |&kind| (kind.plural(), self[kind]))
+    }
+}
+
+impl<T> PerKind<T> {
+    /// The values in the order of the kinds, to be changed.
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.0.iter_mut()
     }
 }
 

@@ -213,7 +213,7 @@ fn neighbor(path: &Path) -> Option<String> {
 }
 
 /// The JSON value of a file's bytes; nothing, after an error, if they are not JSON in UTF-8.
-fn file(diagnostics: &mut Diagnostics, name: &str, bytes: &[u8]) -> Option<Node> {
+pub(super) fn file(diagnostics: &mut Diagnostics, name: &str, bytes: &[u8]) -> Option<Node> {
     if bytes.len() as u64 > MAX_FILE {
         let place = Span { source: diagnostics.add_source(name, ""), start: 0, end: 0 };
         let message = format!("the file is larger than {MAX_FILE} bytes");

@@ -15,6 +15,7 @@ mod keys;
 mod light;
 mod load;
 mod material;
+mod motion;
 mod needs;
 mod set;
 mod plan;
@@ -22,6 +23,7 @@ mod render;
 mod shader;
 mod sim;
 mod stock;
+pub mod sweep;
 mod without_effect;
 mod doubtful;
 mod validate;
@@ -32,7 +34,7 @@ use json::object::{Object, defaults};
 pub use crate::math::Vec3;
 pub use camera::Camera;
 pub use cloth::{Cloth, MAX_POINTS, Orientation};
-pub use collider::{Collider, ColliderKind, MAX_RESOLUTION, PerKind, Plane, Sphere};
+pub use collider::{Collider, ColliderKind, Cuboid, MAX_RESOLUTION, PerKind, Plane, Sphere};
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
@@ -51,7 +53,7 @@ pub use validate::MAX_OBJECTS;
 pub struct Scene {
     /// The cloth, if the scene has one.
     pub cloth: Option<Cloth>,
-    /// What the cloth collides with: the planes, then the spheres, each in file order.
+    /// What the cloth collides with: the planes, then the spheres, then the boxes, each in file order.
     pub colliders: Vec<Collider>,
     /// How the cloth is moved.
     pub sim: Sim,
@@ -117,6 +119,17 @@ impl Scene {
         let mut counts = PerKind::default();
         self.colliders.iter().for_each(|collider| counts[collider.kind()] += 1);
         counts
+    }
+
+    /// Whether the cloth moves in both alike: all but what pictures show is equal.
+    pub fn moves_like(&self, other: &Self) -> bool {
+        let cloth = match (&self.cloth, &other.cloth) {
+            (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        let colliders = self.colliders.len() == other.colliders.len()
+            && self.colliders.iter().zip(&other.colliders).all(|(a, b)| a.collides_like(b));
+        cloth && colliders && self.sim == other.sim
     }
 
     /// What each drawn object looks like, in draw order: the cloth, then the colliders.

@@ -198,7 +198,7 @@ fn no_such_place(step: &Step, path: &str, kind: &str) -> Finding {
 
 #[cfg(test)]
 mod tests {
-    use super::super::json::testing::{node, plain};
+    use super::super::json::testing::node;
     use super::*;
 
     fn after(text: &str, set: &str) -> String {
@@ -207,7 +207,7 @@ mod tests {
         let set = read_set(&mut diagnostics, "--set", set).unwrap().unwrap();
         apply(&mut diagnostics, &mut document, set);
         diagnostics.finish().unwrap();
-        plain(&document).to_string()
+        document.plain().to_string()
     }
 
     #[test]
@@ -223,9 +223,9 @@ mod tests {
 
     #[test]
     fn an_item_of_a_list_that_is_left_out_is_set_in_the_default_list() {
-        assert_eq!(after("{}", "sim.gravity.1=-1.5"), r#"{"sim":{"gravity":[0.0,-1.5,0.0]}}"#);
+        assert_eq!(after("{}", "sim.gravity.1=-1.5"), r#"{"sim":{"gravity":[0,-1.5,0]}}"#);
         let after = after(r#"{"sphere": [{}, {}]}"#, "sphere.1.resolution.0=8");
-        assert_eq!(after, r#"{"sphere":[{},{"resolution":[8.0,40.0]}]}"#);
+        assert_eq!(after, r#"{"sphere":[{},{"resolution":[8,40]}]}"#);
     }
 
     #[test]
@@ -235,7 +235,7 @@ mod tests {
             let set = read_set(&mut diagnostics, "--shader", set).unwrap().unwrap();
             apply_to_each(&mut diagnostics, &mut document, set);
             diagnostics.finish().unwrap();
-            plain(&document).to_string()
+            document.plain().to_string()
         };
         assert_eq!(
             after(r#"{"sphere": [{}, {"a": {}}]}"#, "sphere.*.a.b=true"),

@@ -155,6 +155,13 @@ choices! {
         /// After every step no free point is inside a sphere, or on the other side of a plane than it
         /// started, except by rounding: `src/collision/contact.rs`.
         Outside = "outside",
+        /// Inelastic contact with Coulomb friction: contact takes energy and never adds any, slides and holds alike
+        /// for every number of steps, and nothing passes through an object, however fast (`docs/contact.md`).
+        ///
+        /// The points' way in a step is swept against the objects; at a hit the normal part of the velocity ends, and
+        /// the tangential part is reduced by at most μ times the normal impulse. Self-collision likewise:
+        /// pushing apart gives no speed, and approach ends. `src/collision/coulomb.rs`, `src/collision/pairs.rs`.
+        Coulomb = "coulomb",
     }
 }
 

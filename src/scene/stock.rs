@@ -11,12 +11,13 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 7] = files![
+const FILES: [(&str, &str); 8] = files![
     "scenes/pinned2.json",
     "scenes/pinned4.json",
     "scenes/sphere.json",
     "scenes/plane.json",
     "scenes/selfCollision.json",
+    "scenes/table.json",
     "scenes/look/ball.json",
     "scenes/look/draped.json",
 ];

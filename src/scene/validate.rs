@@ -9,7 +9,10 @@ use super::json::finding::Finding;
 use super::json::node::Node;
 use super::json::span::Span;
 use super::json::text::enumerated;
-use super::{Cloth, ColliderKind, Damping, Integrator, MAX_POINTS, Precision, Scene, SelfCollision, Start};
+use super::{
+    Cloth, ColliderKind, Contact, Damping, Integrator, MAX_POINTS, PerKind, Precision, Scene, SelfCollision,
+    Start,
+};
 
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
@@ -36,6 +39,7 @@ impl Checks<'_> {
             self.damping(cloth);
         }
         self.only_verlet();
+        self.friction();
         self.near_and_far();
         self.object_count();
     }
@@ -163,6 +167,29 @@ impl Checks<'_> {
                 .also(self.span("sim.integrator"), "`sim.integrator` is set here")
                 .help(format!("leave out `{key}` or `sim.integrator`: {why}"));
             self.error(self.span(key), "of Verlet's scheme", finding);
+        }
+    }
+
+    /// A share of the motion is at most 1; a coefficient of friction may be larger.
+    fn friction(&mut self) {
+        let scene = self.scene;
+        if scene.sim.contact == Contact::Coulomb || !self.clean(&["sim.contact"]) {
+            return;
+        }
+        let mut counts = PerKind::<usize>::default();
+        for collider in &scene.colliders {
+            let (kind, number) = (collider.kind(), counts[collider.kind()]);
+            counts[kind] += 1;
+            let keys = [format!("{}.friction", kind.key()), format!("{}.{number}.friction", kind.key())];
+            let Some(key) = keys.iter().find(|key| self.span(key).is_some()) else { continue };
+            if collider.friction() > 1.0 && self.clean(&[key]) {
+                let message = format!("`{key}` is {} but must be from 0 to 1", collider.friction());
+                let finding = Finding::new("scene::friction", message)
+                    .key(key)
+                    .also(self.span("sim.contact"), "`sim.contact` is set here")
+                    .help("a coefficient of friction, which may be larger, needs `sim.contact` = `coulomb`");
+                self.error(self.span(key), "not allowed", finding);
+            }
         }
     }
 

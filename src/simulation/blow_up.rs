@@ -76,7 +76,7 @@ impl Replay {
             let ledger = recorder.ledger;
             return format!(
                 "springs and gravity have put in {:.4e} J, more than the {:.4e} J that they can, fastest is {point},",
-                ledger.gravity + ledger.springs,
+                energy_bound.put_in(ledger),
                 energy_bound.exchange_limit(energy),
             );
         }

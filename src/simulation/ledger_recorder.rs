@@ -4,9 +4,11 @@ use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
 use crate::cloth::{Params, Points, dot};
-use crate::diagnostics::energy::spring_energy;
+use crate::collision::coulomb::Coulomb;
+use crate::diagnostics::energy::{Energy, spring_energy};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
+use crate::scene::ColliderKind;
 
 /// Records the ledger of a cloth while it moves.
 #[derive(Clone, Debug)]
@@ -23,6 +25,8 @@ pub(super) struct LedgerRecorder {
     gravitational: f64,
     /// Total energy after the last phase, in J.
     total: f64,
+    /// Of that, the energy of weight.
+    height: f64,
 }
 
 impl LedgerRecorder {
@@ -32,7 +36,15 @@ impl LedgerRecorder {
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(super) fn new(points: usize) -> Result<Self> {
         let (ledger, before) = (Ledger::default(), Points::zeros(points)?);
-        Ok(Self { ledger, frame_start: ledger, before, spring: 0.0, gravitational: 0.0, total: 0.0 })
+        Ok(Self {
+            ledger,
+            frame_start: ledger,
+            before,
+            spring: 0.0,
+            gravitational: 0.0,
+            total: 0.0,
+            height: 0.0,
+        })
     }
 
     /// Notes the entries at the start of a frame.
@@ -67,19 +79,41 @@ impl LedgerRecorder {
         self.ledger.gravity += energy.gravitational - self.gravitational;
         self.ledger.springs += energy.spring - self.spring;
         self.total = energy.total();
+        self.height = energy.gravitational;
+    }
+
+    /// Enters what contact under `coulomb` took from the motion. What it changed of height and springs only takes back
+    /// a part of the step, and so is theirs, as is what the integrator's velocity differs from `(x - last) / dt`.
+    fn record_contact(&mut self, cloth: &State) {
+        let Some(Coulomb { change, .. }) = &cloth.coulomb else { return };
+        let Params { mass, dt, .. } = cloth.params;
+        let to_joule = mass / (2.0 * dt * dt);
+        self.ledger.self_collision += change.self_collision * to_joule;
+        let mut taken = change.self_collision * to_joule;
+        for &kind in ColliderKind::ALL {
+            self.ledger.colliders[kind] += change.colliders[kind] * to_joule;
+            taken += change.colliders[kind] * to_joule;
+        }
+        let energy = cloth.energy();
+        let raised = energy.gravitational - self.height;
+        self.ledger.gravity += raised;
+        self.ledger.springs += energy.total() - self.total - taken - raised;
+        self.total = energy.total();
     }
 
     /// Enters what a phase after the integrator's did.
-    fn record_correction(&mut self, phase: Phase, total: f64) {
+    fn record_correction(&mut self, phase: Phase, energy: Energy) {
+        let total = energy.total();
         let ledger = &mut self.ledger;
         let entry = match phase {
-            Phase::Forces | Phase::Integration => return,
+            Phase::Forces | Phase::Integration | Phase::Contact => return,
             Phase::SelfCollision => &mut ledger.self_collision,
             Phase::Collision(kind) | Phase::Depenetration(kind) => &mut ledger.colliders[kind],
             Phase::StretchLimit => &mut ledger.stretch_limit,
         };
         *entry += total - self.total;
         self.total = total;
+        self.height = energy.gravitational;
     }
 }
 
@@ -96,7 +130,8 @@ impl Observer for LedgerRecorder {
             _ if !cloth.has(phase) => {}
             Phase::Forces => {}
             Phase::Integration => self.record_integration(cloth),
-            _ => self.record_correction(phase, cloth.energy().total()),
+            Phase::Contact => self.record_contact(cloth),
+            _ => self.record_correction(phase, cloth.energy()),
         }
     }
 }

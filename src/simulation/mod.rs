@@ -8,6 +8,7 @@ mod ledger_recorder;
 mod observer;
 mod observers;
 mod phase;
+pub mod snapshot;
 mod state;
 mod step;
 mod timing;
@@ -23,7 +24,7 @@ use timing::Timing;
 
 use crate::cloth::{Counters, Params, Points, chunks};
 use crate::diagnostics::energy::Energy;
-use crate::diagnostics::extremes::Extremes;
+use crate::diagnostics::extremes::{Extremes, longest_spring};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
 use crate::math::StateHash;
@@ -183,7 +184,8 @@ impl Simulation {
     }
 
     /// Where the last step moved the points from, in metres: where the phases of the step before it
-    /// had left them. With `precision: f32` that is the position less the displacement.
+    /// had left them. With `precision: f32` that is the position less the displacement, and with `contact: coulomb` the
+    /// position less what the velocity after contact moves a point by in a step.
     pub fn last_positions(&self) -> &Points {
         self.cloth.as_ref().map_or(&self.no_points, |cloth| &cloth.last)
     }
@@ -197,6 +199,12 @@ impl Simulation {
     pub fn extremes(&self) -> Extremes {
         let Some(cloth) = &self.cloth else { return Extremes::default() };
         Extremes::new(&cloth.x, &cloth.last, &cloth.springs, cloth.params.dt)
+    }
+
+    /// Largest length of a spring over its rest length, as [`Extremes::stretch`], without the work of the others.
+    pub fn largest_stretch(&self) -> f64 {
+        let longest = self.cloth.as_ref().and_then(|cloth| longest_spring(&cloth.x, &cloth.springs));
+        longest.map_or(0.0, |spring| spring.stretch)
     }
 
     /// Records an energy ledger from now on. The cloth moves as without one, to the last bit.

@@ -17,4 +17,6 @@ pub(super) enum Phase {
     StretchLimit,
     /// After the step: points that are still inside an object of one kind are put outside.
     Depenetration(ColliderKind),
+    /// After the step, under `sim.contact` = `coulomb`: contact ends approach and brakes slides.
+    Contact,
 }

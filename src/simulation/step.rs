@@ -7,7 +7,7 @@ use crate::cloth::Counters;
 use crate::scene::ColliderKind;
 
 impl State {
-    /// Makes a step. The phases after the integration change positions and never `last`.
+    /// Makes a step. The phases after the integration change positions; only under `coulomb` do they change `last`.
     pub(super) fn step(&mut self, observer: &mut impl Observer) {
         self.work = Counters { steps: 1, ..Counters::default() };
         observer.before_step(self);
@@ -39,6 +39,11 @@ impl State {
             self.depenetrate(kind);
             observer.after(Phase::Depenetration(kind), self);
         }
+
+        // Under `coulomb`, instead of 4: the way of the step is swept against the objects; approach ends, slides
+        // are braked.
+        self.touch();
+        observer.after(Phase::Contact, self);
 
         observer.after_step(self);
     }

@@ -17,7 +17,7 @@ pub struct Timings {
     pub solver: u64,
     /// Phase 3: close points of the cloth.
     pub self_collision: u64,
-    /// Phase 4, and what keeps points outside: the objects of the scene.
+    /// Phase 4, and what keeps points outside: the objects of the scene. Under `coulomb`, all contact.
     pub objects: u64,
     /// Phase 5: springs that are too long.
     pub stretch_limit: u64,
@@ -46,7 +46,7 @@ impl Observer for Timing {
             Phase::Integration if cloth.has(Phase::Forces) => &mut timings.verlet,
             Phase::Integration => &mut timings.solver,
             Phase::SelfCollision => &mut timings.self_collision,
-            Phase::Collision(_) | Phase::Depenetration(_) => &mut timings.objects,
+            Phase::Collision(_) | Phase::Depenetration(_) | Phase::Contact => &mut timings.objects,
             Phase::StretchLimit => &mut timings.stretch_limit,
         } += u64::try_from(nanoseconds).unwrap_or(u64::MAX);
         self.since = Some(now);

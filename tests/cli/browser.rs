@@ -53,6 +53,11 @@ impl Browser {
         Some(Self { program: program?, profile })
     }
 
+    /// The file of the browser.
+    pub(crate) fn program(&self) -> &Path {
+        &self.program
+    }
+
     /// Opens a page in a window of `width` pixels, with a light or a dark theme.
     pub(crate) fn open(&self, page: &Path, width: u32, dark: bool) -> Found {
         let probed = self.profile.path().join("probed.html");

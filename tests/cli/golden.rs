@@ -16,6 +16,7 @@ use rayon::prelude::*;
 const PICTURES: &[Case] = &[
     ("ball-nearest", "sphere.json", NEAREST),
     ("sphere-samples", "sphere.json", "--patch scenes/look/draped.json --time 1 --size 192x150 --samples 4"),
+    ("table", "table.json", "--size 192x150 --samples 4"),
     (
         "pinned2-wireframe",
         "pinned2.json",

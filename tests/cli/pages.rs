@@ -65,6 +65,49 @@ fn the_stability_map_shows_a_panel_for_each_density() {
     browser.open(&page, 900, false).check(900);
 }
 
+/// What a reader does with the page of a sweep; an error is seen on the console, and success as one more plot.
+const CLICKS: &str = r#"<script>{
+const same = (found, expected) => { if (found !== expected) throw Error(`${found}, not ${expected}`); };
+const order = () => [...document.querySelectorAll('.cases tbody tr')].map(row => row.cells[0].textContent).join();
+const head = name => [...document.querySelectorAll('th button')].find(button => button.textContent === name);
+same(order(), '1,2,3,4,5,6,7,8');
+head('cloth.ks').click();
+head('cloth.ks').click();
+same(order(), '7,8,5,6,3,4,1,2');
+same(document.querySelector('th[aria-sort]').textContent, 'cloth.ks');
+head('case').click();
+document.querySelector('.tile[data-case="3"]').click();
+const dialog = document.querySelector('dialog');
+same(dialog.open, true);
+same(dialog.querySelector('h2').textContent, 'Case 3');
+same(dialog.querySelector('img').naturalWidth, 40);
+same(dialog.querySelector('pre').textContent,
+  'drape render scene.json case.png --size 40x30 --set cloth.ks=500 --set cloth.density=15 --time 0.1');
+dialog.close();
+dialog.querySelector('img').remove();
+document.body.insertAdjacentHTML('beforeend', '<svg width="300" height="9"><g><path d="M0 0h9"/></g></svg>');
+}</script></body>"#;
+
+#[test]
+fn the_sweep_shows_its_cases_sorts_them_and_opens_one() {
+    let Some(browser) = Browser::find() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let spec = r#"{"scene": "scene.json", "set": {"cloth.ks": [50, 500, 5000, 1e9], "cloth.density": [15, 150]},
+        "time": 0.1, "measure": ["total", "largest_stretch", "hash"], "render": {"size": [40, 30]}}"#;
+    std::fs::write(folder.path().join("spec.json"), spec).unwrap();
+    let page = page(folder.path(), &["sweep", "run", "spec.json", "out"], "out/index.html");
+    for found in opened(&page, &browser) {
+        assert_eq!(found.count("plots"), 4, "lines and a map for each of two numbers: {found:?}");
+        assert_eq!(found.count("images"), 6, "two cases are unstable: {found:?}");
+        assert!(found.count("marks") >= 12, "{found:?}");
+    }
+    let text = std::fs::read_to_string(&page).unwrap();
+    std::fs::write(&page, text.replace("</body>", CLICKS)).unwrap();
+    for found in opened(&page, &browser) {
+        assert_eq!(found.count("plots"), 5, "{found:?}");
+    }
+}
+
 #[test]
 fn the_gallery_shows_its_figures() {
     let Some(browser) = Browser::find() else { return };

@@ -43,6 +43,24 @@ fn pictures_to_standard_output_are_those_of_the_file() {
 }
 
 #[test]
+fn a_picture_hash_is_that_of_the_file_and_no_file_is_written() {
+    let scratch = Scratch::new();
+    let render = ["render", "small.json", "--size", "40x30", "--frame", "3"];
+    let text = String::from_utf8(scratch.succeed(&[&render[..], &["--hash"]].concat())).unwrap();
+    assert_eq!(scratch.names(), ["small.json"]);
+    scratch.succeed(&render);
+    let picture = drape::output::png::read(&scratch.path("small.png")).unwrap();
+    let mut hash = drape::math::StateHash::default();
+    picture.rgba.iter().for_each(|pixel| hash.write(&pixel[..3]));
+    assert_eq!(text, format!("{:016x}\n", hash.finish()));
+    let json = scratch.json(&[&render[..], &["--hash", "--json"]].concat());
+    assert_eq!(json["picture_hash"], text.trim());
+    let other = scratch.succeed(&[&render[..], &["--hash", "--shader", "normal"]].concat());
+    assert_ne!(other, text.as_bytes());
+    assert_eq!(scratch.run(&["render", "small.json", "x.png", "--hash"]).code, Some(2));
+}
+
+#[test]
 fn a_picture_of_the_background_alone_is_warned_of() {
     let scratch = Scratch::new();
     let said = |more: &[&str]| {

@@ -168,7 +168,7 @@ fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
-    assert_eq!((names.len(), rows.len()), (15, 41), "frames 0 to 40");
+    assert_eq!((names.len(), rows.len()), (16, 41), "frames 0 to 40");
     let column = |name: &str| names.iter().position(|&n| n == name).unwrap();
     for (frame, pair) in rows.windows(2).enumerate() {
         let put_in: f64 = pair[1][column("by_gravity")..=column("by_stretch_limit")].iter().sum();
@@ -196,7 +196,7 @@ fn a_run_that_fails_leaves_its_table_up_to_the_last_good_frame() {
     let last_good: usize = message.rsplit(' ').next().unwrap().parse().unwrap();
     let text = String::from_utf8(scratch.read("out.csv")).unwrap();
     assert!(last_good > 10 && text.lines().count() == last_good + 2, "a header, frames 0 to {last_good}");
-    assert!(text.lines().all(|line| line.split(',').count() == 15) && text.ends_with('\n'), "whole rows");
+    assert!(text.lines().all(|line| line.split(',').count() == 16) && text.ends_with('\n'), "whole rows");
     assert!(!scratch.path("out").exists() && run.stdout.is_empty(), "nothing else is written");
 
     let moving = ["simulate", "small.json", "--until-rest", "--frames", "3", "--csv", "moving.csv"];

@@ -51,7 +51,7 @@ fn bash_completes_with_its_script() {
         String::from_utf8(output.stdout).unwrap().trim().to_owned()
     };
     assert_eq!(complete("drape ani", "ani"), "animate");
-    assert_eq!(complete("drape animate --fr", "--fr"), "--frames");
+    assert_eq!(complete("drape animate --fra", "--fra"), "--frames");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 )]
 
 mod cloth;
+mod contact;
 mod gl;
 mod integrators;
 mod layers;
@@ -22,6 +23,7 @@ mod scene;
 #[path = "../support/scenes/mod.rs"]
 mod scenes;
 mod shader;
+mod states;
 mod support;
 #[path = "../../examples/textbook_cloth.rs"]
 mod textbook_cloth;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// The folders of the repository in which a page may name a file.
-const FOLDERS: [&str; 11] = [
+const FOLDERS: [&str; 12] = [
     "src/",
     "lab/",
     "cli/",
@@ -15,6 +15,7 @@ const FOLDERS: [&str; 11] = [
     "golden/",
     "scenes/",
     "textures/",
+    "web/",
     ".ci/",
 ];
 

@@ -6,7 +6,9 @@
     reason = "a test may panic, and numbers are small"
 )]
 
+mod choose;
 mod findings;
+mod horizon;
 #[path = "../support/repository.rs"]
 mod repository;
 mod stability_map;

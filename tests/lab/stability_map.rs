@@ -4,9 +4,11 @@
 
 use drape::error::Result;
 use drape::scene::{Overrides, Scene, load};
+use drape_lab::page::live::Live;
 use drape_lab::stability_map::extremes::{self, Promise};
 use drape_lab::stability_map::outcome::{Outcome, Run, run};
 use drape_lab::stability_map::{Axes, Cell, Column, Map, page, threshold};
+use drape_lab::store::Store;
 use rayon::prelude::*;
 
 fn stock(name: &str, sets: &[&str]) -> Result<Scene> {
@@ -80,7 +82,15 @@ fn cells_break_below_the_bound_at_rest_and_hold_above_the_one_at_worst() {
         steps: (1..=40).step_by(3).collect(),
         time: 0.5,
     };
-    let map = Map::new(&scene, &cloth, axes, &|| Ok(())).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::new(folder.path(), crate::write).unwrap();
+    // Two parts make the whole.
+    for part in [1, 0] {
+        Map::share(&scene, &cloth, &axes, &store, &|number| number % 2 == part, &|| Ok(())).unwrap();
+    }
+    let [made, _] = store.counts();
+    let map = Map::new(&scene, &cloth, axes, &store, &|| Ok(())).unwrap();
+    assert_eq!(store.counts(), [made, made], "nothing is run again");
     assert_eq!((map.cells.len(), map.columns.len()), (4 * 14, 4));
     let mut seen = [0; 2];
     for column in &map.columns {
@@ -107,7 +117,7 @@ fn cells_break_below_the_bound_at_rest_and_hold_above_the_one_at_worst() {
 #[test]
 fn a_page_explains_itself_once_and_shows_single_values() {
     let run = Run { outcome: Outcome::Stretch, frames: 1, stretch: 1.5 };
-    let page = |ks: &[f64], steps: &[u32]| {
+    let linked = |ks: &[f64], steps: &[u32], live: Option<&Live>| {
         let axes = Axes { ks: ks.to_vec(), density: vec![1.5, 150.0], steps: steps.to_vec(), time: 0.1 };
         let materials = [1.5, 150.0].into_iter().flat_map(|density| ks.iter().map(move |&ks| (density, ks)));
         let column = |(density, ks)| {
@@ -117,8 +127,9 @@ fn a_page_explains_itself_once_and_shows_single_values() {
         let columns = materials.clone().map(column).collect();
         let cell = |(density, ks)| steps.iter().map(move |&steps| Cell { density, ks, steps, run });
         let cells = materials.flat_map(cell).collect();
-        page::page("a map", &Map { axes, fps: 90.0, cells, columns }, &[])
+        page::page("a map", &Map { axes, fps: 90.0, cells, columns }, &[], live)
     };
+    let page = |ks: &[f64], steps: &[u32]| linked(ks, steps, None);
     let text = page(&[5000.0], &[3]);
     for once in Outcome::ALL.map(Outcome::name).into_iter().chain(["at rest", "at worst", "Gershgorin"]) {
         assert_eq!(text.matches(&format!("<strong>{once}</strong>: ")).count(), 1, "{once}");
@@ -132,6 +143,11 @@ fn a_page_explains_itself_once_and_shows_single_values() {
         assert_eq!(across, ["173.33", "284.67"], "a stroke across the middle third: {line}");
     }
     assert_eq!(page(&[500.0, 1000.0], &[6, 9]).matches(">10</text>").count(), 2, "a tick on a short axis");
+    // A row links to its cloth with the fewest steps that are stable at rest.
+    let linked = linked(&[5000.0], &[3], Some(&Live::at("live.html")));
+    let link = "<a href=\"live.html#paused&amp;set=cloth.density=1.5&amp;set=cloth.ks=5000&amp;\
+        set=sim.steps_per_frame=5\">1.5</a>";
+    assert!(linked.contains(link) && !text.contains("live.html"), "{linked}");
     assert!(text.contains("<td>408.2 (5)</td>") && text.contains("<td>500.3 (6)</td>"), "{text}");
 }
 

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Overrides};
 use drape::texture_source::TextureSource;
+use drape_lab::page::live::Live;
 use drape_lab::store::Store;
 use drape_lab::study::extent::Extent;
 use drape_lab::study::matrix::{Cell, panels};
@@ -167,6 +168,25 @@ fn a_study_that_was_stopped_goes_on_where_it_was() {
     assert_eq!(without_times(&whole), without_times(&rest));
 }
 
+/// What several machines have run is found by the one that makes the page.
+#[test]
+fn the_parts_of_a_study_are_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = source(folder.path());
+    let only = vec!["verlet".to_owned()];
+    let extent = Extent { only, repeats: 1, ..extent() };
+    let parts = [[1, 2], [0, 2]].map(|part| Extent { part: Some(part), ..extent.clone() });
+    let (_, [first, _]) = run(&source, &parts[0], folder.path());
+    let (_, [second, kept]) = run(&source, &parts[1], folder.path());
+    assert!(first > 0 && second > 0 && kept > 0, "{first}, {second}: the reference is shared, {kept}");
+    let (whole, counts) = run(&source, &extent, folder.path());
+    assert_eq!(counts, [0, first + second], "nothing is run again");
+    let (alone, _) = run(&source, &extent, &folder.path().join("alone"));
+    let errors =
+        |study: &Study| study.panels[0].cells.iter().map(|cell| cell.errors.clone()).collect::<Vec<_>>();
+    assert!(!errors(&whole).is_empty() && errors(&whole) == errors(&alone));
+}
+
 /// A part of a study has the errors of the whole one, and asks for what there is.
 #[test]
 fn runs_can_be_picked_by_their_names() {
@@ -184,8 +204,15 @@ fn runs_can_be_picked_by_their_names() {
         let same = (0..whole.cells.len()).find(|&j| whole.name(j) == part_of.name(i)).unwrap();
         assert_eq!(cell.errors, whole.cells[same].errors);
     }
-    assert!(part.pictures.is_none() && !study::page(&part, "scene.json").unwrap().contains("No pictures"));
-    let page = study::page(&part, "scene.json").unwrap();
+    assert!(
+        part.pictures.is_none() && !study::page(&part, "scene.json", None).unwrap().contains("No pictures")
+    );
+    let page = study::page(&part, "scene.json", Some(&Live::at("live.html"))).unwrap();
+    let link = "set=sim.integrator=bdf2&amp;set=sim.start=report&amp;set=sim.fps=10&amp;set=sim.steps_per_frame=60\">BDF2 at 600 steps/s</a>";
+    assert!(
+        page.contains("<a href=\"live.html#paused&amp;set=sim.integrator=verlet&amp;") && page.contains(link),
+        "{page}"
+    );
     assert!(page.contains("at 0.1, 0.2 s, without stretch limit and self-collision"), "{page}");
     assert!(page.contains("the scene's cloth: 150 kg/m², stable at worst from 600 steps/s"), "{page}");
 }

@@ -2,6 +2,7 @@
 //! the next one and the picture before is encoded. Each of the three works in order, so that the bytes do
 //! not depend on which is faster.
 
+use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 
@@ -26,10 +27,21 @@ pub(crate) struct Pipeline<'a> {
     pub(crate) target: &'a Target,
     pub(crate) playback: Playback,
     pub(crate) schedule: &'a FrameSchedule,
+    /// The pictures of this run: all, or its share of them.
+    pub(crate) pictures: Range<u64>,
     pub(crate) renderer: &'a Renderer,
     pub(crate) options: Options,
     /// The numbered pictures, if each has a file.
     pub(crate) sequence: Option<Sequence<'a>>,
+}
+
+/// Where a simulation is when it is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// After a frame.
+    Frame,
+    /// At its end.
+    End,
 }
 
 /// What was drawn.
@@ -44,9 +56,15 @@ pub(crate) struct Drawn {
 type Numbered<T> = (u64, T);
 
 impl Pipeline<'_> {
-    /// The last picture that is not there from an earlier run.
-    pub(crate) fn last_missing(&self, session: &Session) -> Result<Option<u64>> {
-        for k in (0..self.schedule.count()).rev() {
+    /// The first and the last picture that are not there from an earlier run.
+    pub(crate) fn missing(&self, session: &Session) -> Result<Option<[u64; 2]>> {
+        let first = self.first_missing(self.pictures.clone(), session)?;
+        let last = self.first_missing(self.pictures.clone().rev(), session)?;
+        Ok(first.zip(last).map(|(first, last)| [first, last]))
+    }
+
+    fn first_missing(&self, pictures: impl Iterator<Item = u64>, session: &Session) -> Result<Option<u64>> {
+        for k in pictures {
             session.signals.check()?;
             if !self.has(k) {
                 return Ok(Some(k));
@@ -55,14 +73,21 @@ impl Pipeline<'_> {
         Ok(None)
     }
 
-    /// Simulates, draws and encodes the missing pictures up to number `last`.
-    pub(crate) fn run(&self, last: u64, simulation: Simulation, session: &Session) -> Result<Drawn> {
+    /// Simulates, draws and encodes the missing pictures up to number `last`; `each` sees the simulation after
+    /// every frame, and once more at the end.
+    pub(crate) fn run(
+        &self,
+        last: u64,
+        simulation: Simulation,
+        each: impl FnMut(&Simulation, Stage) -> Result<()> + Send,
+        session: &Session,
+    ) -> Result<Drawn> {
         let file = self.target.open(self.playback, self.schedule.count())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
         thread::scope(|scope| {
             let (states, to_draw) = sync_channel(QUEUE);
             let (pictures, to_encode) = sync_channel(QUEUE);
-            let simulating = scope.spawn(move || self.simulate(last, simulation, &states, session));
+            let simulating = scope.spawn(move || self.simulate(last, simulation, &states, each, session));
             let encoding = scope.spawn(move || self.encode(file, &to_encode));
             let drawn = self.draw(to_draw, &pictures);
             drop(pictures);
@@ -84,14 +109,17 @@ impl Pipeline<'_> {
         last: u64,
         mut simulation: Simulation,
         states: &SyncSender<Numbered<Points>>,
+        mut each: impl FnMut(&Simulation, Stage) -> Result<()>,
         session: &Session,
     ) -> Result<()> {
-        let mut progress = Progress::new(&session.ui, "animating", self.schedule.frame(last));
-        for k in (0..=last).filter(|&k| !self.has(k)) {
+        let frames = self.schedule.frame(last);
+        let mut progress = Progress::starting_at(&session.ui, "animating", frames, simulation.frame());
+        for k in (self.pictures.start..=last).filter(|&k| !self.has(k)) {
             while simulation.frame() < self.schedule.frame(k) {
                 session.signals.check()?;
                 simulation.advance_frame()?;
                 progress.set(simulation.frame());
+                each(&simulation, Stage::Frame)?;
             }
             session.signals.check()?;
             if states.send((k, simulation.positions().clone())).is_err() {
@@ -99,7 +127,7 @@ impl Pipeline<'_> {
             }
         }
         warn_of_unsolved(&simulation, session);
-        Ok(())
+        each(&simulation, Stage::End)
     }
 
     /// Draws each state and sends the picture; ends early when the receiver has gone.

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use super::flag::seconds;
 use crate::run::advance::Until;
 use crate::session::Session;
-use drape::error::Result;
+use drape::error::{Error, Kind, Result};
 use drape::scene::{self, Flag, Overrides, Scene};
+use drape_lab::page::live::Live;
 
 /// A scene file and changes to it.
 #[derive(clap::Args)]
@@ -58,6 +59,23 @@ impl SceneArgs {
     /// `flags`.
     pub(crate) fn load_stock(&self, flags: &[Flag]) -> Result<Scene> {
         scene::load_stock(&self.path, &self.changes.with(flags)).map(|loaded| loaded.scene)
+    }
+
+    /// The live page at `url` with this scene and its changes in every link.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when the file cannot be read; [`Kind::Usage`] with patches, which a link cannot hold.
+    pub(crate) fn live(&self, url: &str) -> Result<Live> {
+        if !self.changes.patches.is_empty() {
+            return Err(Error::new(Kind::Usage, "a link to the live page cannot hold a --patch")
+                .with_help("put the changes into the scene file, or use --set"));
+        }
+        let failed = |e| Error::new(Kind::Io, format!("cannot read {}: {e}", self.path.display()));
+        let text = std::fs::read_to_string(&self.path).map_err(failed)?;
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let sets = self.changes.sets.iter().map(|set| ("set", set.as_str()));
+        let scene = [("scene", name.as_ref()), ("text", text.as_str())];
+        Ok(Live::at(url).with(scene.into_iter().chain(sets)))
     }
 
     /// Every file that [`SceneArgs::load`] reads.

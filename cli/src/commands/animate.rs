@@ -7,14 +7,16 @@ use serde::Serialize;
 
 use crate::animation::fingerprint::Fingerprint;
 use crate::animation::format::{MAX_FPS, Playback};
-use crate::animation::pipeline::{Drawn, Pipeline};
+use crate::animation::pipeline::{Drawn, Pipeline, Stage};
 use crate::animation::schedule::FrameSchedule;
 use crate::animation::sequence::Sequence;
 use crate::animation::target::{self, Target};
 use crate::args::flag::seconds;
 use crate::args::frames::Frames;
+use crate::args::part::Part;
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
+use crate::args::state::StateArgs;
 use crate::run::start::start;
 use crate::session::Session;
 use crate::session::files::outputs;
@@ -22,6 +24,7 @@ use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::render::Renderer;
 use drape::scene::Scene;
+use drape::simulation::Simulation;
 
 /// The arguments of `animate`.
 #[derive(clap::Args)]
@@ -40,6 +43,12 @@ pub(crate) struct Args {
     /// animation plays in real time: picture k shows the simulated frame nearest to k / N seconds after the first
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<u16>::new().range(1..=u64::from(MAX_FPS)))]
     fps: Option<u16>,
+    /// Draw only part K of N of the numbered pictures, so that several runs can divide them. The simulation
+    /// before its first picture is made in each run, or comes from --from-state
+    #[arg(long, value_name = "K/N")]
+    part: Option<Part>,
+    #[command(flatten)]
+    state: StateArgs,
     #[command(flatten)]
     render: RenderArgs,
     #[command(flatten)]
@@ -79,17 +88,32 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if let Some(sequence) = &sequence {
         remove_stale(sequence, schedule.count(), session)?;
     }
-    let pipeline =
-        Pipeline { target: &target, playback, schedule: &schedule, renderer: &renderer, options, sequence };
-    let drawn = match pipeline.last_missing(session)? {
-        Some(last) => {
+    let pictures = args.part.unwrap_or(Part::WHOLE).range(schedule.count());
+    let share = pictures.end - pictures.start;
+    let pipeline = Pipeline {
+        target: &target,
+        playback,
+        schedule: &schedule,
+        pictures,
+        renderer: &renderer,
+        options,
+        sequence,
+    };
+    let drawn = match pipeline.missing(session)? {
+        Some([first, last]) => {
             let allowed = args.stability.allow_unstable;
-            let simulation = start(&scene, schedule.frame(last), allowed, session)?;
-            pipeline.run(last, simulation, session).map_err(|e| target.stopped(e))?
+            let mut simulation = start(&scene, schedule.frame(last), allowed, session)?;
+            args.state.restore(&mut simulation, &scene, schedule.frame(first))?;
+            let mut saving = args.state.saving(&scene);
+            let save = |now: &Simulation, stage| match stage {
+                Stage::Frame => saving.after_frame(now),
+                Stage::End => saving.finish(now),
+            };
+            pipeline.run(last, simulation, save, session).map_err(|e| target.stopped(e))?
         }
         None => Drawn { pictures: 0, visible: true },
     };
-    args.finish(playback, &schedule, schedule.count() - drawn.pictures, session)?;
+    args.finish(playback, share, share - drawn.pictures, session)?;
     if !drawn.visible {
         warn_of_nothing_visible("the pictures", &session.ui);
     }
@@ -130,8 +154,14 @@ impl Args {
 
     /// Checks the output before any long work.
     fn check_outputs(&self, scene: &Scene, target: &Target, schedule: &FrameSchedule) -> Result<()> {
-        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
+        let inputs = [self.scene.inputs(), self.render.inputs(scene), self.state.inputs().collect()].concat();
+        outputs::check(&inputs, self.state.outputs())?;
         let Some(pattern) = target.pattern() else {
+            if self.part.is_some() {
+                let message =
+                    format!("--part divides numbered pictures, and `{}` is one file", self.out.display());
+                return Err(Error::new(Kind::Usage, message).with_help("write to frames/%04d.png"));
+            }
             return outputs::check(&inputs, [(self.out.as_path(), Content::Binary)]);
         };
         if !pattern.folder().as_os_str().is_empty() && !pattern.folder().exists() {
@@ -144,15 +174,9 @@ impl Args {
         outputs::check(&inputs, pictures.iter().map(|path| (path.as_path(), Content::Binary)))
     }
 
-    fn finish(
-        &self,
-        playback: Playback,
-        schedule: &FrameSchedule,
-        kept: u64,
-        session: &Session,
-    ) -> Result<()> {
+    fn finish(&self, playback: Playback, pictures: u64, kept: u64, session: &Session) -> Result<()> {
         let Playback { width, height, fps, .. } = playback;
-        let (out, pictures) = (self.out.display().to_string(), schedule.count());
+        let out = self.out.display().to_string();
         #[expect(clippy::cast_precision_loss, reason = "for people")]
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
-use crate::run::stability::unstable_at_rest;
 use crate::session::Session;
 use crate::session::ui::{help_lines, paint};
+use drape::diagnostics::advice::unstable_at_rest;
+use drape::diagnostics::geometry::{Concern, concerns};
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
 use drape::scene::{self, Images, Material, Scene};
@@ -94,14 +95,18 @@ fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
     findings
 }
 
-/// What would stop a later command, although the scene is valid: a texture that cannot be read, or a step that
-/// is unstable.
+/// What would stop a later command or make its result wrong, although the scene is valid: a texture that cannot be
+/// read, a geometry that cannot hold, or a step that is unstable.
 fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
     let [images, cubes] = names(scene);
     let images = images.iter().filter_map(|name| textures.texture(name).err());
     let cubes = cubes.iter().filter_map(|name| textures.cubemap(name).err());
     let mut warnings: Vec<_> =
         images.chain(cubes).map(|error| warning(file, "check::texture", &error)).collect();
+    match concerns(scene) {
+        Ok(concerns) => warnings.extend(concerns.into_iter().map(|concern| of_geometry(file, concern))),
+        Err(error) => warnings.push(warning(file, "check::geometry", &error)),
+    }
     warnings.extend(instability(scene).map(|error| warning(file, "check::unstable", &error)));
     warnings
 }
@@ -128,6 +133,13 @@ fn instability(scene: &Scene) -> Option<Error> {
         }
         Err(error) => Some(error),
     }
+}
+
+/// A warning of geometry that cannot hold.
+fn of_geometry(file: &str, concern: Concern) -> Diagnostic {
+    let Concern { code, key, message, help } = concern;
+    let rendered = format!("warning[{code}]: {message}\n --> {file}{}", help_lines(&help));
+    Diagnostic { code, message, file: file.to_owned(), line: 0, column: 0, key, help, rendered }
 }
 
 /// A warning of a later error, which belongs to no place in the file.

@@ -1,27 +1,36 @@
 //! `drape compare-positions`: where positions computed by another program differ from ours, and why.
 
-use std::path::PathBuf;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
+use crate::animation::pattern::Pattern;
 use crate::args::frames::Frames;
 use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
+use crate::session::files::target;
 use crate::session::progress::{Progress, Tally};
 use drape::cloth::Points;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
-use drape_lab::grader::{self, Case, Comparison, Difference, Ours};
+use drape_lab::grader::{self, Case, Comparison, Difference, Ours, Pair, State, Watch};
 
 /// The arguments of `compare-positions`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The positions of the other program: x y z of each point, row by row, as f64 little-endian or as text with 17
-    /// digits (%.17g); one state, or several one after the other
+    /// The positions of the other program: x y z of each point, row by row, as .npy, as f64 little-endian or as text
+    /// with 17 digits (%.17g); one state, or several one after the other. A name with %04d in it, such as
+    /// dump/%04d.npy, means a file for each frame, numbered by frame. If SCENE is such a file of positions too, the two
+    /// are compared with each other
     #[arg(value_name = "FILE")]
     file: PathBuf,
+    /// Do not look for the cause of a difference, which runs many simulations
+    #[arg(long)]
+    no_diagnosis: bool,
     /// The frame of the state in the file, if there is one state (default: that of the scene's render.time)
     #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u64).range(..u64::MAX))]
     frame: Option<u64>,
@@ -37,6 +46,9 @@ pub(crate) struct Args {
 
 /// Compares and prints; a difference beyond the tolerance is an error of [`Kind::Difference`].
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
+    if is_positions(&args.scene.path) {
+        return args.run_pair(session);
+    }
     let scene = args.scene.load(session)?;
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(
@@ -44,8 +56,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
             "the scene has no cloth, so there are no positions to compare",
         ));
     };
-    let theirs = grader::read(&args.file, [cloth.num_width_points, cloth.num_height_points])?;
-    let first_frame = args.first_frame(theirs.len(), &scene)?;
+    let (numbered, theirs) = args.read([cloth.num_width_points, cloth.num_height_points])?;
+    let first_frame = numbered.map_or_else(|| args.first_frame(theirs.len(), &scene), Ok)?;
     let plural = if theirs.len() == 1 { "" } else { "s" };
     session.ui.note(&format!("{} state{plural}, the first at frame {first_frame}", theirs.len()));
     let plain = Simulation::new(&scene)?;
@@ -56,17 +68,70 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let ours = args.simulate(&scene, start.as_ref(), first_frame, theirs.len(), session)?;
     let last_frame = frame_at(None, &scene).max(first_frame + theirs.len() as u64);
     let case = Case { scene: &scene, cloth, first_frame, last_frame, start, ours: &ours, theirs: &theirs };
-    let progress = Tally::new(&session.ui, "trying mistakes", grader::trials_at_most(&scene));
-    let comparison = Comparison::new(&case, args.tolerance, &|tried| {
-        progress.add(tried);
+    let progress = Tally::open_ended(&session.ui, "looking for the cause, frames simulated");
+    let watch = || {
+        progress.add(1);
         session.signals.check()
-    })?;
+    };
+    let watch: Watch<'_> = &watch;
+    let comparison = Comparison::new(&case, args.tolerance, (!args.no_diagnosis).then_some(watch))?;
     drop(progress);
     session.print(&comparison, &comparison.text())?;
     result(&comparison, args.tolerance)
 }
 
+/// Whether a file holds positions rather than a scene, which is called so or starts with a brace.
+fn is_positions(path: &Path) -> bool {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+        return false;
+    }
+    let mut start = [0; 64];
+    let read = File::open(path).and_then(|mut file| file.read(&mut start));
+    let first = |length: usize| start[..length].iter().find(|byte| !byte.is_ascii_whitespace()).copied();
+    read.is_ok_and(|length| first(length).is_some_and(|first| first != b'{'))
+}
+
 impl Args {
+    /// Compares two files of positions.
+    fn run_pair(&self, session: &Session) -> Result<()> {
+        if self.frame.is_some() || self.frames.is_some() {
+            let message =
+                "two files of positions are compared number by number, so there are no frames to name";
+            return Err(Error::new(Kind::Usage, message).with_help("leave out --frame and --frames"));
+        }
+        let [a, b] = [&self.scene.path, &self.file].map(|path| grader::read_numbers(path));
+        let pair = Pair::new(&a?, &b?, self.tolerance)?;
+        session.print(&pair, &pair.text())?;
+        if pair.differing == 0 { Ok(()) } else { Err(difference("the positions", "", self.tolerance)) }
+    }
+
+    /// The states of the other program, and the first one's frame if their names say it.
+    fn read(&self, grid: [usize; 2]) -> Result<(Option<u64>, Vec<State>)> {
+        let Some(pattern) = Pattern::parse(&self.file) else {
+            return Ok((None, grader::read(&self.file, grid)?));
+        };
+        let folder = target::folder(&self.file);
+        let entries = fs::read_dir(folder).map_err(|e| {
+            Error::new(Kind::Io, format!("cannot read the folder `{}`: {e}", folder.display()))
+        })?;
+        let mut frames: Vec<u64> = entries.filter_map(|entry| pattern.number(&entry.ok()?.path())).collect();
+        frames.sort_unstable();
+        let Some(&first) = frames.first() else {
+            let message = format!("there is no file `{}`", self.file.display());
+            return Err(Error::new(Kind::Io, message).with_help("the number in a name is that of the frame"));
+        };
+        if (first..).zip(&frames).any(|(expected, &frame)| frame != expected) {
+            let message = format!("the frames of `{}` are not one after the other", self.file.display());
+            return Err(Error::new(Kind::Usage, message)
+                .with_help("write every frame, or compare one file with --frame N"));
+        }
+        let mut states = Vec::new();
+        for frame in frames {
+            states.extend(grader::read(&pattern.path(frame), grid)?);
+        }
+        Ok((Some(first), states))
+    }
+
     /// The states of the method at `count` frames from `first_frame` on, started with the points at `start` if
     /// they are given.
     fn simulate(
@@ -112,10 +177,17 @@ impl Args {
 /// The error of a difference, which decides the exit code.
 fn result(comparison: &Comparison, tolerance: f64) -> Result<()> {
     let Some(Difference { frame, .. }) = comparison.difference else { return Ok(()) };
-    let beyond = if tolerance > 0.0 { "differ by more than the tolerance" } else { "are not equal" };
-    let message = format!("the positions {beyond} from frame {frame} on");
-    Err(Error::new(Kind::Difference, message)
-        .with_help("--tolerance 1e-6 accepts differences that come from rounding"))
+    Err(difference("the positions", &format!(" from frame {frame} on"), tolerance))
+}
+
+/// The error of a difference; its help names only what was not given.
+fn difference(what: &str, place: &str, tolerance: f64) -> Error {
+    let (beyond, help) = if tolerance > 0.0 {
+        ("differ by more than the tolerance", "")
+    } else {
+        ("are not equal", "--tolerance 1e-6 accepts differences that come from rounding")
+    };
+    Error::new(Kind::Difference, format!("{what} {beyond}{place}")).with_help(help)
 }
 
 /// Parses a distance that is not negative.

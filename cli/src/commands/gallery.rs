@@ -16,6 +16,7 @@ use drape::scene::Flag;
 use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
 use drape_lab::gallery::table::{Picture, parts_called};
+use drape_lab::page::live::Live;
 
 /// The name of the page.
 const INDEX: &str = "index.html";
@@ -36,6 +37,9 @@ pub(crate) struct Args {
     /// Write only the pictures: no page, and no energy ledger, which takes three quarters of the time
     #[arg(long)]
     pictures: bool,
+    /// Link each picture on the page to its moment on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL", conflicts_with = "pictures")]
+    live: Option<String>,
 }
 
 /// The summary.
@@ -70,7 +74,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         atomic::write(file, &shown.png)?;
     }
     if !args.pictures {
-        atomic::write(&index, page::page(&parts, &shots, &shown).as_bytes())?;
+        let live = args.live.as_deref().map(Live::at);
+        atomic::write(&index, page::page(&parts, &shots, &shown, live.as_ref())?.as_bytes())?;
     }
     let figures = parts.iter().map(|part| part.figures.len()).sum();
     args.finish(figures, &pictures, &shown, session)

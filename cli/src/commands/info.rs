@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::unlit;
 use crate::args::scene::{SceneArgs, frame_at};
-use crate::run::stability::largest_ks;
 use crate::session::Session;
 use drape::cloth::{Params, springs};
+use drape::diagnostics::advice::largest_ks;
+use drape::diagnostics::geometry::{Concern, concerns};
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Item, PerKind, Scene, plan};
@@ -85,6 +86,9 @@ struct Memory {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let info = Info::of(&scene)?;
+    for Concern { message, help, .. } in concerns(&scene)? {
+        session.ui.caution(&message, &help);
+    }
     session.print(&info, &info.text())
 }
 

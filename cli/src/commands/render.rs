@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{Moment, SceneArgs};
+use crate::args::state::StateArgs;
 use crate::run::advance::advance_until;
 use crate::run::bench;
 use crate::run::start::start;
@@ -34,6 +35,8 @@ pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) moment: Moment,
     #[command(flatten)]
+    state: StateArgs,
+    #[command(flatten)]
     pub(crate) render: RenderArgs,
     /// Write the depth of each pixel to this file: f32 little-endian, top row first (`-` for standard output)
     #[arg(long, value_name = "FILE")]
@@ -49,6 +52,20 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..),
           conflicts_with_all = ["picture", "depth", "ids", "stats"])]
     bench: Option<u32>,
+    /// Print the hash of the picture, over the bytes of its red, green and blue from the top row on; no picture is
+    /// written
+    #[arg(long, conflicts_with_all = ["picture", "depth", "ids", "stats", "bench"])]
+    hash: bool,
+}
+
+/// The hash of a picture.
+#[derive(Serialize)]
+struct Hash {
+    picture_hash: String,
+    width: u32,
+    height: u32,
+    frame: u64,
+    time: f64,
 }
 
 /// The summary.
@@ -72,15 +89,22 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let renderer = Renderer::new(&scene, &args.render.textures())?;
     args.render.caution(&scene, &renderer, &session.ui);
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    let ended = advance_until(&mut simulation, &scene, until, session, |_| Ok(()))?;
+    args.state.restore(&mut simulation, &scene, until.frames)?;
+    let mut saving = args.state.saving(&scene);
+    let ended = advance_until(&mut simulation, &scene, until, session, |now| saving.after_frame(now))?;
+    saving.finish(&simulation)?;
     let options = args.render.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
     }
     let picture = renderer.draw(simulation.positions(), &options);
     session.signals.check()?;
-    args.write(&path, &picture)?;
-    args.finish(&path, &picture, &simulation, session)?;
+    if args.hash {
+        print_hash(&picture, &simulation, session)?;
+    } else {
+        args.write(&path, &picture)?;
+        args.finish(&path, &picture, &simulation, session)?;
+    }
     ended.result()
 }
 
@@ -106,17 +130,17 @@ impl Args {
         }
     }
 
-    /// Checks all outputs before any long work; with `--bench` there are none.
+    /// Checks all outputs before any long work; with `--bench` and `--hash` there are none.
     fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
-        if self.bench.is_some() {
+        if self.bench.is_some() || self.hash {
             return Ok(());
         }
         outputs::check_ending(picture, "png")?;
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
         let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
-        let inputs = [self.scene.inputs(), self.render.inputs(scene)].concat();
-        outputs::check(&inputs, all)
+        let inputs = [self.scene.inputs(), self.render.inputs(scene), self.state.inputs().collect()].concat();
+        outputs::check(&inputs, all.chain(self.state.outputs()))
     }
 
     fn fills_stdout(&self) -> bool {
@@ -153,6 +177,14 @@ impl Args {
         let summary = Summary { picture: path.display().to_string(), width, height, frame, time, stats };
         session.print(&summary, &text(&stats))
     }
+}
+
+fn print_hash(picture: &Picture, simulation: &Simulation, session: &Session) -> Result<()> {
+    let &Picture { width, height, .. } = picture;
+    let picture_hash = format!("{:016x}", picture.hash());
+    let text = format!("{picture_hash}\n");
+    let (frame, time) = (simulation.frame(), simulation.time());
+    session.print(&Hash { picture_hash, width, height, frame, time }, &text)
 }
 
 fn text(stats: &Stats) -> String {

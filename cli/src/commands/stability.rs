@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -16,6 +17,7 @@ use drape_lab::page::short;
 use drape_lab::stability_map::extremes::{self, Row};
 use drape_lab::stability_map::range::Values;
 use drape_lab::stability_map::{Axes, Column, Map, page};
+use drape_lab::store::Store;
 
 /// Stiffness, density and steps of the whole map, and of a quick one, as the help has them.
 const FULL: [&str; 3] = ["500..500000:log7", "1.5..1500:log4", "1..500:log10"];
@@ -26,7 +28,7 @@ const QUICK: [&str; 3] = ["500..500000:log3", "1.5..1500:log3", "1..300:log6"];
 pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
-    /// The folder for index.html and results.json
+    /// The folder for index.html, results.json and the finished runs
     #[arg(value_name = "OUT", default_value = "stability")]
     out: PathBuf,
     /// Stiffness in N/m: a list such as `500,5000`, or a range of 4 values with equal ratios, `500..500000:log4`, or
@@ -46,6 +48,12 @@ pub(crate) struct Args {
     /// minutes
     #[arg(long)]
     quick: bool,
+    /// Run only part K of N of the map and keep the results in OUT/cells, for the command without --part
+    #[arg(long, value_name = "K/N")]
+    part: Option<Part>,
+    /// Link each row of the page's table to its cloth on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL")]
+    live: Option<String>,
 }
 
 /// The results.
@@ -65,25 +73,58 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     outputs::make_folder(&args.out)?;
     outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
 
-    let (map, rows) = args.measure(&scene, cloth, session)?;
+    let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
+    let store = Store::new(&args.out.join("cells"), atomic::write)?;
+    if let Some(part) = args.part {
+        return args.share(&scene, cloth, part, &store, session);
+    }
+    let (map, rows) = args.measure(&scene, cloth, &store, session)?;
     let results = Results { map: &map, extremes: &rows };
     let json = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
     let [index, data] = files;
     atomic::write(&data, (json + "\n").as_bytes())?;
-    atomic::write(&index, page::page(&args.title(), &map, &rows).as_bytes())?;
+    atomic::write(&index, page::page(&args.title(), &map, &rows, live.as_ref()).as_bytes())?;
     session.print(&results, &text(&map, &rows, &index))
 }
 
 impl Args {
-    fn measure(&self, scene: &Scene, cloth: &Cloth, session: &Session) -> Result<(Map, Vec<Row>)> {
+    /// Runs a part of the map.
+    fn share(
+        &self,
+        scene: &Scene,
+        cloth: &Cloth,
+        part: Part,
+        store: &Store,
+        session: &Session,
+    ) -> Result<()> {
         let axes = self.axes();
-        let total = axes.work() + extremes::len();
+        let range = part.range(axes.pieces() as u64);
+        let progress = Tally::new(&session.ui, "trying", range.end - range.start);
+        let done = || {
+            progress.add(1);
+            session.signals.check()
+        };
+        Map::share(scene, cloth, &axes, store, &|number| part.takes(number), &done)?;
+        let [made, found] = store.counts();
+        session.ui.note(&format!("{}: {made} results made, {found} found", self.out.display()));
+        Ok(())
+    }
+
+    fn measure(
+        &self,
+        scene: &Scene,
+        cloth: &Cloth,
+        store: &Store,
+        session: &Session,
+    ) -> Result<(Map, Vec<Row>)> {
+        let axes = self.axes();
+        let total = axes.pieces() + extremes::len();
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);
             session.signals.check()
         };
-        let map = Map::new(scene, cloth, axes, &done)?;
+        let map = Map::new(scene, cloth, axes, store, &done)?;
         let rows = extremes::table(&|sets| self.scene.load_with(sets), &mut || done())?;
         Ok((map, rows))
     }

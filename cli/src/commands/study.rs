@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -31,9 +32,16 @@ pub(crate) struct Args {
     /// `bdf2`, `BDF2 at 600 steps/s` or `k/m 8.33e4`; repeatable. No pictures are drawn
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
+    /// Run only part K of N and keep the results in OUT/cells, for the command without --part. Times are comparable
+    /// only if the machines are alike and do nothing else
+    #[arg(long, value_name = "K/N")]
+    part: Option<Part>,
     /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
+    /// Link each run on the page to its cloth on the live page at this address (see web/README.md)
+    #[arg(long, value_name = "URL")]
+    live: Option<String>,
 }
 
 /// Runs what no earlier study has finished, writes the page and prints the advice.
@@ -41,9 +49,10 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.scene.load(session)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
     let extent = if args.quick { Extent::quick() } else { Extent::full() };
-    let extent = Extent { only: args.only.clone(), ..extent };
+    let extent = Extent { only: args.only.clone(), part: args.part.and_then(Part::of), ..extent };
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let folder = args.folder()?;
+    let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
     let steps = study::steps(&source, &extent)?;
     let store = Store::new(&folder.join("cells"), atomic::write)?;
     let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
@@ -59,12 +68,17 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     };
     let study = study::run(&source, &textures, &extent, &store, &watch)?;
     drop(progress);
+    if args.part.is_some() {
+        let [made, found] = store.counts();
+        session.ui.note(&format!("{}: {made} runs made, {found} found", folder.display()));
+        return Ok(());
+    }
     let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
     let results = Results::new(&study, &name, store.counts());
     let bytes = serde_json::to_vec_pretty(&results).map_err(|e| json_failed(&e))?;
     atomic::write(&json, &bytes)?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
-    atomic::write(&page, study::page(&study, &name)?.as_bytes())?;
+    atomic::write(&page, study::page(&study, &name, live.as_ref())?.as_bytes())?;
     session.ui.note(&format!("{}: page written", page.display()));
     session.print(&results, &results.text())
 }

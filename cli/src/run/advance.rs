@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+
 use crate::session::Session;
 use crate::session::progress::Progress;
 use drape::cloth::Counters;
-use drape::diagnostics::rest::{Motion, RestWatch};
+use drape::diagnostics::rest::{Motion, QUIET, RestWatch};
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
@@ -23,9 +25,34 @@ pub(crate) struct Until {
 pub(crate) struct Ended {
     /// The wall time.
     pub(crate) elapsed: Duration,
+    /// The figures of a cloth that came to rest, if that was asked for.
+    pub(crate) rest: Option<Rest>,
     /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not. The command still
     /// writes its results and returns this error last.
     pub(crate) unsettled: Option<Error>,
+}
+
+/// The figures of a cloth at rest.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Rest {
+    /// For how long it was quiet, in seconds.
+    quiet: f64,
+    /// The most that it did in that time.
+    motion: Motion,
+    /// The most that a cloth at rest does.
+    limit: Motion,
+}
+
+impl Rest {
+    /// A line of the summary.
+    pub(crate) fn text(&self) -> String {
+        let Self { quiet, motion, limit } = self;
+        format!(
+            "rest         for {quiet} s no point was faster than {:.3e} m/s (limit {:.3e}) and no residual force per mass \
+             larger than {:.3e} m/s² (limit {:.3e})\n",
+            motion.speed, limit.speed, motion.residual, limit.residual
+        )
+    }
 }
 
 impl Ended {
@@ -50,22 +77,26 @@ pub(crate) fn advance_until(
     let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest) else {
         let last = if until.rest { 0 } else { until.frames };
         let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
-        return Ok(Ended { elapsed, unsettled: None });
+        return Ok(Ended { elapsed, rest: None, unsettled: None });
     };
-    let mut watch = RestWatch::new(cloth, &scene.sim, simulation.positions())?;
+    let first = simulation.frame();
+    let now = simulation.positions();
+    let mut watch = match first {
+        0 => RestWatch::new(cloth, &scene.sim, now)?,
+        _ => RestWatch::in_motion(cloth, &scene.sim, simulation.positions_at_frame_start(), now)?,
+    };
     let mut motion = None;
     let elapsed = advance_while(simulation, until.frames, session, |simulation| {
         each(simulation)?;
-        if simulation.frame() > 0 {
+        if simulation.frame() > first {
             motion = Some(watch.look(simulation.positions()));
         }
-        Ok(!motion.is_some_and(|motion| watch.is_rest(motion)))
+        Ok(!watch.is_rest())
     })?;
-    let unsettled = match motion {
-        Some(motion) if watch.is_rest(motion) => None,
-        _ => Some(no_rest(simulation, motion, watch.limit())),
-    };
-    Ok(Ended { elapsed, unsettled })
+    let limit = watch.limit();
+    let rest = watch.is_rest().then(|| Rest { quiet: QUIET, motion: watch.most(), limit });
+    let unsettled = rest.is_none().then(|| no_rest(simulation, motion, limit));
+    Ok(Ended { elapsed, rest, unsettled })
 }
 
 /// Warns of steps in which an implicit integrator did not reach its tolerance.
@@ -84,7 +115,7 @@ fn no_rest(simulation: &Simulation, motion: Option<Motion>, limit: Motion) -> Er
     let does = motion.map_or_else(String::new, |motion| {
         format!(
             ": the fastest point moves at {:.3e} m/s (limit {:.3e}), the largest residual force per mass is {:.3e} \
-             m/s² (limit {:.3e})",
+             m/s² (limit {:.3e}); at rest both stay below their limits for {QUIET} s",
             motion.speed, limit.speed, motion.residual, limit.residual,
         )
     });
@@ -105,7 +136,7 @@ fn advance_while(
     mut each: impl FnMut(&Simulation) -> Result<bool>,
 ) -> Result<Duration> {
     let started = Instant::now();
-    let mut progress = Progress::new(&session.ui, "simulating", frames);
+    let mut progress = Progress::starting_at(&session.ui, "simulating", frames, simulation.frame());
     let mut continues = each(simulation)?;
     while continues && simulation.frame() < frames {
         session.signals.check()?;

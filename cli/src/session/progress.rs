@@ -15,17 +15,27 @@ pub(crate) struct Progress<'a> {
     ui: &'a Ui,
     what: &'static str,
     total: u64,
+    /// What was done before it started.
+    before: u64,
     bar: Option<ProgressBar>,
     started: Instant,
     told: Instant,
 }
 
 impl<'a> Progress<'a> {
-    /// Starts to show work named `what`, such as `simulating`, of `total` equal pieces.
+    /// Starts to show work named `what`, such as `simulating`, of `total` equal pieces; the largest number means that
+    /// nobody knows.
     pub(crate) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
+        Self::starting_at(ui, what, total, 0)
+    }
+
+    /// As [`Progress::new`], where `before` pieces are done already.
+    pub(crate) fn starting_at(ui: &'a Ui, what: &'static str, total: u64, before: u64) -> Self {
         let now = Instant::now();
         let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what, total));
-        Self { ui, what, total, bar, started: now, told: now }
+        bar.iter().for_each(|bar| bar.set_position(before));
+        bar.iter().for_each(ProgressBar::reset_eta);
+        Self { ui, what, total, before, bar, started: now, told: now }
     }
 
     /// Shows that `done` pieces are done.
@@ -34,7 +44,7 @@ impl<'a> Progress<'a> {
             bar.set_position(done);
         } else if self.told.elapsed() >= PAUSE {
             self.told = Instant::now();
-            self.ui.note(&line(self.what, done, self.total, self.started.elapsed()));
+            self.ui.note(&line(self.what, [self.before, done], self.total, self.started.elapsed()));
         }
     }
 }
@@ -56,6 +66,11 @@ impl<'a> Tally<'a> {
         Self(Mutex::new((Progress::new(ui, what, total), 0)))
     }
 
+    /// For work of which nobody knows how much it is.
+    pub(crate) fn open_ended(ui: &'a Ui, what: &'static str) -> Self {
+        Self::new(ui, what, u64::MAX)
+    }
+
     /// Shows that `pieces` more are done, at most `total` in all.
     pub(crate) fn add(&self, pieces: u64) {
         // The lock is poisoned only when a panic is about to end the program.
@@ -68,9 +83,11 @@ impl<'a> Tally<'a> {
 }
 
 fn bar(what: &'static str, total: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+    let known = (total < u64::MAX).then_some(total);
+    let bar = ProgressBar::with_draw_target(known, ProgressDrawTarget::stderr());
+    let template = if known.is_some() { "{msg} {wide_bar} {pos}/{len}, {eta} left" } else { "{msg} {pos}" };
     // The template is constant; if it did not parse, the default style would do.
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
     bar.with_message(what)
@@ -79,14 +96,17 @@ fn bar(what: &'static str, total: u64) -> ProgressBar {
 /// The remaining time is estimated after this fraction of the work, one in `EARLY`.
 const EARLY: u64 = 20;
 
-/// `done` of `total` and, after the first twentieth, the seconds left at the same speed.
-fn line(what: &str, done: u64, total: u64, elapsed: Duration) -> String {
-    let left = total.saturating_sub(done);
-    if left == 0 || done < total / EARLY {
+/// `done` of `total` and, after a twentieth of what was not done `before`, the seconds left at the same speed.
+fn line(what: &str, [before, done]: [u64; 2], total: u64, elapsed: Duration) -> String {
+    if total == u64::MAX {
+        return format!("{what}: {done}");
+    }
+    let (left, new) = (total.saturating_sub(done), done.saturating_sub(before));
+    if left == 0 || new < (total.saturating_sub(before)) / EARLY {
         return format!("{what}: {done} of {total}");
     }
     #[expect(clippy::cast_precision_loss, reason = "an estimate for people")]
-    let seconds = elapsed.as_secs_f64() * left as f64 / done.max(1) as f64;
+    let seconds = elapsed.as_secs_f64() * left as f64 / new.max(1) as f64;
     format!("{what}: {done} of {total}, about {seconds:.0} s left")
 }
 
@@ -97,12 +117,14 @@ mod tests {
     #[test]
     fn the_line_estimates_the_rest() {
         assert_eq!(
-            line("simulating", 20, 80, Duration::from_secs(10)),
+            line("simulating", [0, 20], 80, Duration::from_secs(10)),
             "simulating: 20 of 80, about 30 s left"
         );
-        assert_eq!(line("x", 0, 0, Duration::ZERO), "x: 0 of 0");
-        assert_eq!(line("x", 4, 100, Duration::from_secs(9)), "x: 4 of 100");
-        assert_eq!(line("x", 5, 100, Duration::from_secs(1)), "x: 5 of 100, about 19 s left");
-        assert_eq!(line("x", 100, 100, Duration::from_secs(9)), "x: 100 of 100");
+        assert_eq!(line("x", [0, 0], 0, Duration::ZERO), "x: 0 of 0");
+        assert_eq!(line("x", [0, 7], u64::MAX, Duration::from_secs(9)), "x: 7", "nobody knows the rest");
+        assert_eq!(line("x", [0, 4], 100, Duration::from_secs(9)), "x: 4 of 100");
+        assert_eq!(line("x", [0, 5], 100, Duration::from_secs(1)), "x: 5 of 100, about 19 s left");
+        assert_eq!(line("x", [40, 60], 100, Duration::from_secs(10)), "x: 60 of 100, about 20 s left");
+        assert_eq!(line("x", [0, 100], 100, Duration::from_secs(9)), "x: 100 of 100");
     }
 }

@@ -3,7 +3,8 @@
 use super::facts;
 use super::shot::{Shot, Shown};
 use super::table::{Figure, Part, Picture};
-use crate::page;
+use crate::page::{self, live::Live};
+use drape::error::Result;
 
 /// A picture of the table, what was asked for, and how it came out.
 type Made<'a> = (&'a Picture, &'a Shot, &'a Shown);
@@ -23,8 +24,12 @@ Verlet's scheme is stable. <b>Energy</b> is the ledger: what each phase of the m
 took out of it (−) from the start to the picture. Gravity exchanges motion and height, and springs exchange motion \
 and stretch, without loss; their entries hold only what the finite step adds.</p>\n";
 
-/// The page of `parts`, whose pictures were asked for as `shots` and came out as `shown`, in the same order.
-pub fn page(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
+/// The page of `parts`, whose pictures were asked for as `shots` and came out as `shown`, in the same order; with links
+/// to a live page, if there is one.
+///
+/// # Errors
+/// As [`Picture::live_parts`].
+pub fn page(parts: &[Part], shots: &[Shot], shown: &[Shown], live: Option<&Live>) -> Result<String> {
     let mut made = shots.iter().zip(shown);
     let (mut contents, mut sections) = (String::new(), String::new());
     for part in parts.iter().filter(|part| !part.figures.is_empty()) {
@@ -36,17 +41,11 @@ pub fn page(parts: &[Part], shots: &[Shot], shown: &[Shown]) -> String {
         for figure in &part.figures {
             let pictures = figure.pictures.iter().zip(&mut made);
             let pictures: Vec<_> = pictures.map(|(picture, (shot, shown))| (picture, shot, shown)).collect();
-            sections += &section(figure, &pictures);
+            sections += &section(figure, &pictures, live)?;
         }
     }
-    page::head("The figures of the report")
-        + STYLE
-        + TEXT
-        + "<nav>\n"
-        + &contents
-        + "</nav>\n"
-        + &sections
-        + page::END
+    let head = page::head("The figures of the report");
+    Ok(head + STYLE + TEXT + "<nav>\n" + &contents + "</nav>\n" + &sections + page::END)
 }
 
 fn link(name: &str) -> String {
@@ -54,22 +53,22 @@ fn link(name: &str) -> String {
     format!("<a href=\"#{name}\">{name}</a>\n")
 }
 
-fn section(figure: &Figure, pictures: &[Made<'_>]) -> String {
+fn section(figure: &Figure, pictures: &[Made<'_>], live: Option<&Live>) -> Result<String> {
     let name = page::escape(figure.name());
     let note = match figure.note.as_str() {
         "" => String::new(),
         note => format!("<p class=\"note\">{}</p>\n", page::escape(note)),
     };
-    let cells: String = match pictures {
-        [one] => format!("{}<div>\n{}</div>\n", shown(one), details(one)),
-        several => several
-            .iter()
-            .map(|picture| format!("<div>\n{}{}</div>\n", shown(picture), details(picture)))
-            .collect(),
+    let cells = match pictures {
+        [one] => format!("{}<div>\n{}</div>\n", shown(one), details(one, live)?),
+        several => {
+            let cell = |picture| Ok(format!("<div>\n{}{}</div>\n", shown(picture), details(picture, live)?));
+            several.iter().map(cell).collect::<Result<String>>()?
+        }
     };
-    format!(
+    Ok(format!(
         "<section id=\"{name}\">\n<h3>{name}</h3>\n{note}<div class=\"row\">\n{cells}</div>\n</section>\n"
-    )
+    ))
 }
 
 fn shown((picture, _, shown): &Made<'_>) -> String {
@@ -78,7 +77,7 @@ fn shown((picture, _, shown): &Made<'_>) -> String {
     format!("<figure><a href=\"{name}.png\">{image}</a>\n<figcaption>{caption}</figcaption></figure>\n")
 }
 
-fn details((picture, shot, shown): &Made<'_>) -> String {
+fn details((picture, shot, shown): &Made<'_>, live: Option<&Live>) -> Result<String> {
     let terms = [
         ("Parameters", facts::parameters(shot, &shown.state)),
         ("Stability", facts::margin(&shown.state)),
@@ -88,7 +87,18 @@ fn details((picture, shot, shown): &Made<'_>) -> String {
         .iter()
         .map(|(term, text)| format!("<dt>{term}</dt><dd>{}</dd>\n", page::escape(text)))
         .collect();
-    format!("<dl>\n{terms}</dl>\n<pre>{}</pre>\n", page::escape(&picture.command()))
+    let link = live.map_or_else(|| Ok(String::new()), |live| link_to_live(picture, shot, live))?;
+    Ok(format!("<dl>\n{terms}</dl>\n<pre>{}</pre>\n{link}", page::escape(&picture.command())))
+}
+
+/// The link to the moment of a picture.
+fn link_to_live(picture: &Picture, shot: &Shot, live: &Live) -> Result<String> {
+    let parts = picture.live_parts()?;
+    let [width, height] = shot.scene.render.size;
+    let (frame, size) = (shot.frame.to_string(), format!("{width}x{height}"));
+    let moment = [("frame", frame.as_str()), ("size", size.as_str())];
+    let parts = parts.iter().map(|(name, value)| (*name, value.as_str())).chain(moment);
+    Ok(format!("<p>{}</p>\n", live.with(parts).link("Open it on the live page")))
 }
 
 #[cfg(test)]
@@ -110,7 +120,10 @@ mod tests {
         let parts = parts().unwrap();
         let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);
         let count = pictures.count();
-        let page = page(&parts, &vec![shot; count], &vec![shown[0].clone(); count]);
+        let (shots, shown) = (vec![shot; count], vec![shown[0].clone(); count]);
+        let linked = page(&parts, &shots, &shown, Some(&Live::at("live.html"))).unwrap();
+        assert_eq!(linked.matches("<a href=\"live.html#paused&amp;scene=").count(), count);
+        let page = page(&parts, &shots, &shown, None).unwrap();
 
         assert_eq!(page.matches("<section id=").count(), 51);
         assert_eq!(page.matches("<h2>").count(), parts.len());

@@ -9,7 +9,7 @@ use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
 use drape::render::{Options, Picture, Renderer};
-use drape::scene::{Cloth, Scene};
+use drape::scene::Scene;
 use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
 
@@ -63,14 +63,7 @@ fn hexadecimal<S: serde::Serializer>(hash: &u64, serializer: S) -> Result<S::Ok,
 impl Shot {
     /// Whether two pictures are moments of one simulation: their scenes differ at most in how they are drawn.
     fn shares_simulation(&self, other: &Self) -> bool {
-        let (a, b) = (&self.scene, &other.scene);
-        let cloth = match (&a.cloth, &b.cloth) {
-            (Some(a), Some(b)) => Cloth { material: b.material.clone(), ..a.clone() } == *b,
-            (a, b) => a.is_none() && b.is_none(),
-        };
-        let colliders = a.colliders.len() == b.colliders.len()
-            && a.colliders.iter().zip(&b.colliders).all(|(a, b)| a.collides_like(b));
-        cloth && colliders && a.sim == b.sim && self.allow_unstable == other.allow_unstable
+        self.scene.moves_like(&other.scene) && self.allow_unstable == other.allow_unstable
     }
 }
 

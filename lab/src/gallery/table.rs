@@ -61,6 +61,35 @@ impl Picture {
     }
 }
 
+impl Picture {
+    /// The parts of a link to this picture on the live page, but for its frame and size.
+    ///
+    /// # Errors
+    /// [`Kind::Internal`] when the command has an option that the live page does not know.
+    pub fn live_parts(&self) -> Result<Vec<(&'static str, String)>> {
+        let mut parts = vec![("scene", self.scene.clone())];
+        let mut words = self.arguments.split_whitespace();
+        while let Some(option) = words.next() {
+            if option == "--allow-unstable" {
+                parts.push(("allow-unstable", String::new()));
+                continue;
+            }
+            let value = words.next().unwrap_or_default();
+            parts.push(match option {
+                "--frame" | "--time" => continue,
+                "--patch" => ("patch", value.to_owned()),
+                "--set" => ("set", value.to_owned()),
+                "--shader" => ("shader", value.to_owned()),
+                "--springs" => ("springs", value.to_owned()),
+                "-a" => ("set", format!("sphere.resolution.0={value}")),
+                "-o" => ("set", format!("sphere.resolution.1={value}")),
+                _ => return Err(Error::new(Kind::Internal, format!("`{option}` has no part in a link"))),
+            });
+        }
+        Ok(parts)
+    }
+}
+
 /// Every part of the report.
 ///
 /// # Errors

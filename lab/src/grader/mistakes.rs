@@ -185,7 +185,7 @@ fn scenes(scene: &Scene) -> Vec<Mistake> {
         }),
         with("friction f where 1 - f belongs", |scene| {
             let frictions = scene.colliders.iter_mut().map(Collider::friction_mut);
-            frictions.for_each(|friction| *friction = 1.0 - *friction);
+            frictions.for_each(|friction| *friction = (1.0 - *friction).max(0.0));
         }),
     ]
 }

@@ -21,6 +21,9 @@ pub(super) struct Precision {
 }
 
 impl Precision {
+    /// Numbers that are not rounded.
+    pub(super) const WHOLE: Self = Self { digits: None, decimals: None, single: false };
+
     /// The precision of all finite numbers of `states`.
     pub(super) fn of(states: &[State]) -> Self {
         let numbers =

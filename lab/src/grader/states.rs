@@ -3,20 +3,37 @@
 use std::fs;
 use std::path::Path;
 
+use crate::npy;
 use drape::error::{Error, Kind, Result};
 
 /// The positions of one frame: x y z of each point in metres, row by row.
 pub type State = Vec<[f64; 3]>;
 
-/// The states in a file, each of `width` x `height` points: f64 little-endian, or decimal numbers separated by
-/// spaces, commas, brackets or ends of lines. In a text, what follows `#` is ignored, and so are leading
-/// lines without a number.
+/// The numbers in a file, and what it says of the grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers {
+    /// The numbers, x y z of each point.
+    pub numbers: Vec<f64>,
+    /// Points in a row and rows, where the file says so.
+    pub shape: Option<[usize; 2]>,
+}
+
+/// The numbers in a file: numpy's format, f64 little-endian, or decimal numbers separated by spaces, commas, brackets
+/// or ends of lines. In a text, what follows `#` is ignored, and so are leading lines without a number.
 ///
 /// # Errors
-/// [`Kind::Io`] when the file cannot be read or does not hold whole states.
-pub fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State>> {
-    let failed = |cause: String| Error::new(Kind::Io, format!("cannot read `{}`: {cause}", path.display()));
+/// [`Kind::Io`] when the file cannot be read or does not hold numbers.
+pub fn read_numbers(path: &Path) -> Result<Numbers> {
+    let failed = failed(path);
     let bytes = fs::read(path).map_err(|e| failed(e.to_string()))?;
+    if bytes.starts_with(npy::MAGIC) {
+        let (numbers, shape) = npy::decode(&bytes).map_err(failed)?;
+        let grid = match shape.as_slice() {
+            [.., height, width, 3] => Some([*width, *height]),
+            _ => None,
+        };
+        return Ok(Numbers { numbers, shape: grid });
+    }
     let numbers = match std::str::from_utf8(&bytes).ok().filter(|text| is_plain(text)) {
         Some(text) => numbers(text).map_err(failed)?,
         None => {
@@ -27,17 +44,35 @@ pub fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State>> {
             numbers.iter().map(|&number| f64::from_le_bytes(number)).collect()
         }
     };
+    Ok(Numbers { numbers, shape: None })
+}
+
+fn failed(path: &Path) -> impl Fn(String) -> Error + Copy + '_ {
+    move |cause| Error::new(Kind::Io, format!("cannot read `{}`: {cause}", path.display()))
+}
+
+/// The states in a file, each of `width` x `height` points, as [`read_numbers`] reads it.
+///
+/// # Errors
+/// As [`read_numbers`]; [`Kind::Io`] when the numbers are not those of whole states.
+pub fn read(path: &Path, [width, height]: [usize; 2]) -> Result<Vec<State>> {
+    let Numbers { numbers, shape } = read_numbers(path)?;
     let points = width * height;
+    if let Some([w, h]) = shape.filter(|shape| *shape != [width, height]) {
+        let message = format!("it holds {w} x {h} points, and the scene has {width} x {height}");
+        return Err(failed(path)(message).with_help("numpy's shape is (rows, columns, 3)"));
+    }
     if numbers.is_empty() || points == 0 || numbers.len() % (3 * points) != 0 {
         let found = numbers.len() as f64 / 3.0;
         let message = format!("it holds {found} points, and the scene has {width} x {height} = {points}");
-        let single = bytes.len().is_multiple_of(12 * points) && !bytes.is_empty();
+        let size = fs::metadata(path).map_or(0, |file| file.len());
+        let single = size > 0 && size.is_multiple_of(12 * points as u64);
         let help = if single {
             "its size is that of f32 numbers; write f64, since f32 hides small differences".to_owned()
         } else {
             format!("a state is x y z of each of {points} points, row by row")
         };
-        return Err(failed(message).with_help(help));
+        return Err(failed(path)(message).with_help(help));
     }
     let triples: Vec<[f64; 3]> = numbers.as_chunks().0.to_vec();
     Ok(triples.chunks(points).map(<[_]>::to_vec).collect())

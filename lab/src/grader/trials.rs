@@ -8,6 +8,9 @@ use super::mistakes::Mistake;
 use super::precision::Precision;
 use drape::error::{Kind, Result};
 
+/// Hears of every frame that is simulated, from several threads; an error that it returns ends the search.
+pub type Watch<'a> = &'a (dyn Fn() -> Result<()> + Sync);
+
 /// The most states after the first clear difference that a mistake is compared with. Later ones are chaotic.
 pub(super) const WINDOW: usize = 10;
 
@@ -41,7 +44,7 @@ impl Tried {
 }
 
 /// Runs every mistake over some states from `k` on; the one that comes nearest to theirs is the first. `watch`
-/// is called with 0 after every frame and with 1 after every mistake.
+/// is called after every frame.
 ///
 /// # Errors
 /// Those of the simulations and of `watch`.
@@ -50,7 +53,7 @@ pub(super) fn run(
     mistakes: &[Mistake],
     k: usize,
     precision: &Precision,
-    watch: &(dyn Fn(u64) -> Result<()> + Sync),
+    watch: Watch<'_>,
 ) -> Result<Vec<Tried>> {
     let ahead = case.theirs[k..].iter().take(WINDOW);
     let finite = ahead.take_while(|state| state.as_flattened().iter().all(|x| x.is_finite()));
@@ -58,8 +61,7 @@ pub(super) fn run(
     let error = |ours: &[Ours]| case.distances(window.clone(), ours, precision).iter().sum::<f64>();
     let without = error(&case.ours[window.clone()]);
     let tried = mistakes.par_iter().map(|mistake| {
-        let states = mistake.states(case.start.as_ref(), case.frame(k), window.len(), &|| watch(0));
-        watch(1)?;
+        let states = mistake.states(case.start.as_ref(), case.frame(k), window.len(), watch);
         let left = match states {
             // A mistake that is unstable is not the one that was made.
             Err(error) if error.kind == Kind::Unstable => f64::MAX,

@@ -10,10 +10,10 @@ use super::mistakes::{self, Mistake};
 use super::numbers::{NUMBERS, Target};
 use super::precision::Precision;
 use super::states::State;
-use super::trials::{self, Tried, WINDOW};
+use super::trials::{self, Tried, WINDOW, Watch};
 use drape::cloth::Counters;
 use drape::error::Result;
-use drape::scene::{ColliderKind, Orientation, Scene};
+use drape::scene::{ColliderKind, Orientation};
 use drape::simulation::Simulation;
 use rayon::prelude::*;
 
@@ -34,27 +34,18 @@ pub(super) struct Verdict {
     pub(super) mistakes: Vec<Tried>,
 }
 
-/// The most mistakes that are run to find the cause of a difference in `scene`.
-pub fn trials_at_most(scene: &Scene) -> u64 {
-    (mistakes::all(scene).len() + NUMBERS.len()) as u64
-}
-
 impl Verdict {
     /// A verdict for which no mistake was run.
     pub(super) fn only(words: impl Into<String>) -> Self {
         Self { words: words.into(), mistakes: Vec::new() }
     }
 
-    /// The cause of the differences of `case` beyond `tolerance`, in metres. `watch` is called with 0 after
-    /// every frame and with 1 after every mistake that was run.
+    /// The cause of the differences of `case` beyond `tolerance`, in metres. `watch` is called after
+    /// every frame.
     ///
     /// # Errors
     /// Those of the simulations and of `watch`.
-    pub(super) fn of(
-        case: &Case<'_>,
-        tolerance: f64,
-        watch: &(dyn Fn(u64) -> Result<()> + Sync),
-    ) -> Result<Self> {
+    pub(super) fn of(case: &Case<'_>, tolerance: f64, watch: Watch<'_>) -> Result<Self> {
         let precision = &Precision::of(case.theirs);
         let distances = case.distances(0..case.theirs.len(), case.ours, precision);
         let Some(k) = distances.iter().position(|&distance| distance > CLEAR.max(tolerance)) else {
@@ -66,19 +57,14 @@ impl Verdict {
         if let Some(words) = other_frame(case, k, precision, watch)? {
             return Ok(Self::only(words));
         }
-        if grew(&distances[..=k]) && chaos::reaches(case, &distances[..=k], &|| watch(0))? {
+        if grew(&distances[..=k]) && chaos::reaches(case, &distances[..=k], watch)? {
             return Ok(Self::only(chaos::words(case, k)));
         }
         Self::by_trials(case, k, precision, watch)
     }
 
     /// The verdict on state `k` after running the mistakes.
-    fn by_trials(
-        case: &Case<'_>,
-        k: usize,
-        precision: &Precision,
-        watch: &(dyn Fn(u64) -> Result<()> + Sync),
-    ) -> Result<Self> {
+    fn by_trials(case: &Case<'_>, k: usize, precision: &Precision, watch: Watch<'_>) -> Result<Self> {
         let mut mistakes = trials::run(case, &mistakes::all(case.scene), k, precision, watch)?;
         if mistakes.first().is_none_or(|best| !best.explains()) {
             mistakes.extend(trials::run(case, &wrong_numbers(case, k, watch)?, k, precision, watch)?);
@@ -143,19 +129,14 @@ fn other_order(case: &Case<'_>, k: usize, precision: &Precision) -> Option<Strin
 }
 
 /// The verdict on a state `k` that is ours of another frame.
-fn other_frame(
-    case: &Case<'_>,
-    k: usize,
-    precision: &Precision,
-    watch: &(dyn Fn(u64) -> Result<()> + Sync),
-) -> Result<Option<String>> {
+fn other_frame(case: &Case<'_>, k: usize, precision: &Precision, watch: Watch<'_>) -> Result<Option<String>> {
     let mut simulation = Simulation::starting_at(case.scene, case.start.as_ref())?;
     simulation.allow_unstable();
     let near = |simulation: &Simulation, state: &State| {
         largest_beyond(simulation.positions(), state, precision) <= CLEAR
     };
     while simulation.frame() <= case.last_frame {
-        watch(0)?;
+        watch()?;
         let (frame, here) = (simulation.frame(), near(&simulation, &case.theirs[k]));
         let ended = simulation.advance_frame().is_err();
         let next = case.theirs.get(k + 1).is_none_or(|next| near(&simulation, next));
@@ -181,15 +162,11 @@ fn moved_on(case: &Case<'_>, k: usize, frame: u64) -> String {
 }
 
 /// The scene's numbers with the values that fit state `k` best, each as a mistake.
-fn wrong_numbers(
-    case: &Case<'_>,
-    k: usize,
-    watch: &(dyn Fn(u64) -> Result<()> + Sync),
-) -> Result<Vec<Mistake>> {
+fn wrong_numbers(case: &Case<'_>, k: usize, watch: Watch<'_>) -> Result<Vec<Mistake>> {
     let Case { scene, cloth, .. } = *case;
     let target =
         Target { scene, cloth, start: case.start.as_ref(), frame: case.frame(k), state: &case.theirs[k] };
-    let fitted = NUMBERS.par_iter().map(|number| number.fit(&target, &|| watch(0)));
+    let fitted = NUMBERS.par_iter().map(|number| number.fit(&target, &|| watch()));
     Ok(fitted.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
@@ -203,6 +180,7 @@ fn suspects(case: &Case<'_>, counters: Counters) -> String {
     let with_objects = collided.map(|kind| match kind {
         ColliderKind::Plane => "collision with planes (its side, friction)",
         ColliderKind::Sphere => "collision with spheres (friction, the centre)",
+        ColliderKind::Cuboid => "collision with boxes (friction, the nearest face)",
     });
     let limited = (counters.springs_limited > 0).then_some("the stretch limit (its order, pinned ends)");
     let names: Vec<&str> = with_itself.into_iter().chain(with_objects).chain(limited).collect();

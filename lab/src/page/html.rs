@@ -68,7 +68,11 @@ pub fn escape(text: &str) -> String {
 /// `value` with at most four significant digits.
 pub fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    if (1e-3..1e6).contains(&rounded) { rounded.to_string() } else { format!("{rounded:e}") }
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 /// Base 64 with padding (RFC 4648, section 4).
@@ -106,6 +110,12 @@ mod tests {
             assert_eq!(base64(bytes.as_bytes()), text);
         }
         assert_eq!(base64(&[0xFB, 0xFF, 0xFE]), "+//+");
+    }
+
+    #[test]
+    fn short_numbers_have_four_digits() {
+        let all = [0.0, -0.25, 123.456, 1e-4, -1234567.0].map(short);
+        assert_eq!(all, ["0", "-0.25", "123.5", "1e-4", "-1.235e6"]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod html;
 pub mod axis;
 pub mod comparison;
+pub mod live;
 pub mod plot;
 
 pub use html::{Cells, END, escape, head, image, short, table};

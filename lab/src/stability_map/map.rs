@@ -8,10 +8,11 @@
 //! other: they are spread over threads, and the map is the same for every number of threads.
 
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::outcome::{Run, run};
 use super::threshold::{at_rest, frames, in_motion};
+use crate::store::{Store, key};
 use drape::cloth::springs::SpringKind;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
@@ -31,7 +32,7 @@ pub struct Axes {
 }
 
 /// One run of the map.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// In kg/m².
     pub density: f64,
@@ -45,7 +46,7 @@ pub struct Cell {
 }
 
 /// The steps a second from which a stiffness and density is stable.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// In kg/m².
     pub density: f64,
@@ -73,9 +74,14 @@ pub struct Map {
 }
 
 impl Axes {
-    /// Calls of `done` that [`Map::new`] makes: one for each cell and column.
-    pub fn work(&self) -> usize {
+    /// The pieces of the map: a cell or a column each.
+    pub fn pieces(&self) -> usize {
         self.density.len() * self.ks.len() * (self.steps.len() + 1)
+    }
+
+    /// Every density with every stiffness and number of steps.
+    fn runs(&self) -> Vec<([f64; 2], u32)> {
+        self.materials().flat_map(|material| self.steps.iter().map(move |&steps| (material, steps))).collect()
     }
 
     /// Every density with every stiffness.
@@ -85,30 +91,55 @@ impl Axes {
 }
 
 impl Map {
-    /// Runs every cell of `axes` with the other values of `scene`, whose cloth is `cloth`. `done` is called
-    /// after each cell and column, from any thread, and can end the work with an error.
+    /// The map of `axes` with the other values of `scene`, whose cloth is `cloth`: runs the cells and columns that
+    /// `store` does not have. `done` is called after each of them, from any thread, and can end the work with an error.
     ///
     /// # Errors
-    /// Those of `done` and of [`drape::simulation::Simulation::new`].
+    /// Those of `done`, of the store and of [`drape::simulation::Simulation::new`].
     pub fn new(
         scene: &Scene,
         cloth: &Cloth,
         axes: Axes,
+        store: &Store,
         done: &(dyn Fn() -> Result<()> + Sync),
     ) -> Result<Self> {
         let materials: Vec<[f64; 2]> = axes.materials().collect();
         let columns = materials.par_iter().map(|&material| {
-            let column = Column::new(scene, cloth, material, axes.time)?;
+            let column = Column::kept(scene, cloth, material, axes.time, store)?;
             done().map(|()| column)
         });
         let columns = columns.collect::<Result<_>>()?;
-        let runs: Vec<_> = materials.iter().flat_map(|&m| axes.steps.iter().map(move |&s| (m, s))).collect();
-        let cells = runs.par_iter().map(|&(material, steps)| {
-            let cell = Cell::new(scene, cloth, material, steps, axes.time)?;
+        let cells = axes.runs().into_par_iter().map(|(material, steps)| {
+            let cell = Cell::kept(scene, cloth, material, steps, axes.time, store)?;
             done().map(|()| cell)
         });
         let cells = cells.collect::<Result<_>>()?;
         Ok(Self { fps: scene.sim.fps, cells, columns, axes })
+    }
+
+    /// Runs the pieces that `takes` accepts by their number, from 0, and that `store` does not have.
+    ///
+    /// # Errors
+    /// As [`Map::new`].
+    pub fn share(
+        scene: &Scene,
+        cloth: &Cloth,
+        axes: &Axes,
+        store: &Store,
+        takes: &(dyn Fn(u64) -> bool + Sync),
+        done: &(dyn Fn() -> Result<()> + Sync),
+    ) -> Result<()> {
+        let materials: Vec<[f64; 2]> = axes.materials().collect();
+        let columns = (0_u64..).zip(materials).collect::<Vec<_>>();
+        let cells = (columns.len() as u64..).zip(axes.runs()).collect::<Vec<_>>();
+        columns.into_par_iter().filter(|(number, _)| takes(*number)).try_for_each(|(_, material)| {
+            Column::kept(scene, cloth, material, axes.time, store)?;
+            done()
+        })?;
+        cells.into_par_iter().filter(|(number, _)| takes(*number)).try_for_each(|(_, (material, steps))| {
+            Cell::kept(scene, cloth, material, steps, axes.time, store)?;
+            done()
+        })
     }
 
     /// The cells of one density, by stiffness, then steps.
@@ -118,6 +149,19 @@ impl Map {
 }
 
 impl Cell {
+    /// The cell in `store`, or one that is run and put there.
+    fn kept(
+        scene: &Scene,
+        cloth: &Cloth,
+        material: [f64; 2],
+        steps: u32,
+        time: f64,
+        store: &Store,
+    ) -> Result<Self> {
+        let key = key("stability cell", &(scene, material, steps, time));
+        store.kept(key, || Self::new(scene, cloth, material, steps, time))
+    }
+
     fn new(scene: &Scene, cloth: &Cloth, material: [f64; 2], steps: u32, time: f64) -> Result<Self> {
         let mut scene = made_of(scene, cloth, material);
         scene.sim.steps_per_frame = steps;
@@ -128,6 +172,12 @@ impl Cell {
 }
 
 impl Column {
+    /// The column in `store`, or one that is found and put there.
+    fn kept(scene: &Scene, cloth: &Cloth, material: [f64; 2], time: f64, store: &Store) -> Result<Self> {
+        let key = key("stability column", &(scene, material, time));
+        store.kept(key, || Self::new(scene, cloth, material, time))
+    }
+
     fn new(scene: &Scene, cloth: &Cloth, material: [f64; 2], time: f64) -> Result<Self> {
         let scene = made_of(scene, cloth, material);
         let cloth = scene.cloth.as_ref().unwrap_or(cloth);

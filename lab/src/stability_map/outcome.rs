@@ -6,7 +6,7 @@ use drape::scene::Scene;
 use drape::simulation::Simulation;
 
 /// The outcome of a run, from good to worst.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// None of the others.
@@ -40,7 +40,7 @@ impl Outcome {
 }
 
 /// The result of a run.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Run {
     /// The worst that happened.
     pub outcome: Outcome,

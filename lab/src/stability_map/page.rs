@@ -4,17 +4,17 @@ use super::extremes::{FRAMES, Promise, Row, headline};
 use super::legend::{self, LINES, TRIED, legend};
 use super::map::{Column, Map};
 use super::panel::panel;
-use crate::page::{self, Cells, escape, short};
+use crate::page::{self, Cells, escape, live::Live, short};
 
 /// What the page adds to the style of every page: maps two by two, or one by one on a narrow screen.
 const STYLE: &str = "\
 .maps{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:1rem}.maps>figure{margin:0}\
 @media(max-width:700px){.maps{grid-template-columns:minmax(0,1fr)}}th{white-space:normal}";
 
-/// The page of `map` and the extremes `rows`, called `title`.
-pub fn page(title: &str, map: &Map, rows: &[Row]) -> String {
+/// The page of `map` and the extremes `rows`, called `title`; with links to the scene on a live page, if there is one.
+pub fn page(title: &str, map: &Map, rows: &[Row], live: Option<&Live>) -> String {
     let style = format!("<style>{STYLE}{}</style>\n", legend::STYLE);
-    page::head(title) + &style + &panels(map) + &thresholds(map) + &extremes(rows) + page::END
+    page::head(title) + &style + &panels(map) + &thresholds(map, live) + &extremes(rows) + page::END
 }
 
 /// A heat map for each density, with the bounds by theory.
@@ -41,13 +41,14 @@ pub fn rate(steps: f64, fps: f64) -> String {
 }
 
 /// The bounds by theory and the thresholds found by bisection.
-fn thresholds(map: &Map) -> String {
+fn thresholds(map: &Map, live: Option<&Live>) -> String {
     let found = |steps: Option<f64>| steps.map_or_else(|| "–".to_owned(), |steps| rate(steps, map.fps));
     let row = |column: &Column| {
         let [rest, worst, gershgorin] = column.theory;
         let ratio = column.at_rest.map_or_else(|| "–".to_owned(), |steps| format!("{:.4}", steps / rest));
+        let density = live.map_or_else(|| short(column.density), |live| link(column, map.fps, live));
         vec![
-            short(column.density),
+            density,
             short(column.ks),
             rate(rest, map.fps),
             found(column.at_rest),
@@ -72,6 +73,16 @@ fn thresholds(map: &Map) -> String {
         map.axes.time,
         page::table(&head, Cells::Numbers, map.columns.iter().map(row)),
     )
+}
+
+/// The density of a column, linked to its cloth on the live page with the fewest steps that are stable at rest.
+fn link(column: &Column, fps: f64, live: &Live) -> String {
+    let sets = [
+        format!("cloth.density={}", column.density),
+        format!("cloth.ks={}", column.ks),
+        format!("sim.steps_per_frame={}", (column.theory[0] / fps).floor() + 1.0),
+    ];
+    live.with(sets.iter().map(|set| ("set", set.as_str()))).link(&short(column.density))
 }
 
 /// The extremes: what is promised, and what happened.

@@ -23,6 +23,8 @@ pub struct Extent {
     pub resolutions: Vec<u32>,
     /// Selects runs by part of their name or by their integrator, and makes no pictures; everything if empty.
     pub only: Vec<String>,
+    /// Part K of N of the runs, counted from 0, and no pictures.
+    pub part: Option<[usize; 2]>,
 }
 
 impl Extent {
@@ -39,6 +41,7 @@ impl Extent {
             picture_width: 512,
             resolutions: vec![16, 40, 128],
             only: Vec::new(),
+            part: None,
         }
     }
 
@@ -55,6 +58,7 @@ impl Extent {
             picture_width: 256,
             resolutions: vec![16, 128],
             only: Vec::new(),
+            part: None,
         }
     }
 

@@ -82,6 +82,12 @@ pub fn panels(source: &Source, extent: &Extent) -> Result<Vec<Panel>> {
     let panels =
         extent.densities.iter().map(|part| panel(source, &scene, [cloth.density * part, *part], extent));
     let mut panels = panels.collect::<Result<Vec<_>>>()?;
+    if let Some([part, of]) = extent.part {
+        let mut numbers = 0..;
+        panels
+            .iter_mut()
+            .for_each(|panel| panel.cells.retain(|_| numbers.next().is_some_and(|n| n % of == part)));
+    }
     if extent.only.is_empty() {
         return Ok(panels);
     }

@@ -71,7 +71,7 @@ pub fn run(
         .zip(measured)
         .map(|((panel, reference), cells)| PanelStudy { panel, reference, cells })
         .collect();
-    let pictures = match extent.only.is_empty() {
+    let pictures = match extent.only.is_empty() && extent.part.is_none() {
         true => pictures::measure(&source.scene(&[])?, textures, extent, store, watch)?,
         false => None,
     };

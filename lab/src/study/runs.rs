@@ -7,7 +7,7 @@ use super::matrix::{Cell, Panel};
 use super::reference::{Difference, Reference, differences};
 use super::source::Source;
 use super::trajectory::{self, Limits, Moment, Trajectory};
-use crate::store::{Store, key};
+use crate::store::{Address, Store, key};
 use drape::error::Result;
 
 /// The energy that a cloth may hold beyond the reference's, as a fraction of the energy that the fall
@@ -154,7 +154,7 @@ pub fn measure(
 struct Slot<'a> {
     cell: &'a Cell,
     reference: &'a Reference,
-    key: u64,
+    key: Address,
     measured: Option<Measured>,
 }
 

@@ -5,8 +5,8 @@ use std::marker::PhantomData;
 use serde_json::{Value, json};
 
 use super::node::Json;
+use super::number::whole;
 use super::rule::{At, Rule};
-use super::scalar::whole;
 use super::suggest::did_you_mean;
 use super::text::alternatives;
 

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use super::finding::Finding;
 use super::snippet::{self, Severity};
 use super::span::{Source, Span};
+use super::text::quoted;
 use crate::error::{Diagnostic, Error};
 
 /// Reading stops after this many errors.
@@ -16,16 +17,28 @@ type Place = (usize, usize);
 /// The texts that are read and everything found in them.
 #[derive(Default)]
 pub(crate) struct Diagnostics {
+    /// What the document is, in messages: "the sweep"; a scene if it is empty.
+    document: &'static str,
     pub(crate) sources: Vec<Source>,
     errors: Vec<(Place, Diagnostic)>,
     warnings: Vec<Diagnostic>,
 }
 
 impl Diagnostics {
+    /// For a document that messages call `document`.
+    pub(crate) fn of(document: &'static str) -> Self {
+        Self { document, ..Self::default() }
+    }
+
     /// Takes in a text; returns its number.
     pub(crate) fn add_source(&mut self, name: impl Into<String>, text: impl Into<Rc<str>>) -> usize {
         self.sources.push(Source { name: name.into(), text: text.into() });
         self.sources.len() - 1
+    }
+
+    /// A dotted path in quotes; the empty one is the whole document.
+    pub(crate) fn quoted(&self, path: &str) -> String {
+        if path.is_empty() && !self.document.is_empty() { self.document.into() } else { quoted(path) }
     }
 
     /// The text of a span on one line.

@@ -22,6 +22,12 @@ impl Row {
     }
 }
 
+/// An object whose values can be listed as a document writes them.
+pub(crate) trait Listed {
+    /// Adds every key of its own with its value, below `path`; objects inside it are left out.
+    fn list(&self, path: &str, list: &mut Vec<(String, Value)>);
+}
+
 /// A key of a document with everything that is said about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Key {

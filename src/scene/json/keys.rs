@@ -1,7 +1,7 @@
 //! The table of an object's keys: one row a key, from which its field, its documentation, its rule
 //! and its default are made.
 
-/// Makes a struct and the function that reads it from an object of a document.
+/// Makes a struct, the function that reads it from an object of a document, and the one that lists its values.
 ///
 /// A row is `/// meaning`, then `key: Type => [default] rule;`. The field has the name of the key.
 /// - `[required]` is for a key that must be given.
@@ -25,6 +25,12 @@ macro_rules! keys {
             )*
         }
 
+        impl $crate::scene::json::key::Listed for $object {
+            fn list(&self, path: &str, list: &mut Vec<(String, serde_json::Value)>) {
+                $($crate::scene::json::keys::keys!(@list self, path, list, $key, [$($default)*] $rule);)*
+            }
+        }
+
         impl $object {
             /// Reads every key of an object.
             pub(super) fn read(at: &mut $crate::scene::json::object::Object) -> Self {
@@ -39,6 +45,13 @@ macro_rules! keys {
                 }
             }
         }
+    };
+    (@list $self:ident, $path:ident, $list:ident, $key:ident, [inherited] $rule:expr) => {};
+    (@list $self:ident, $path:ident, $list:ident, $key:ident, [$($default:tt)*] $rule:expr) => {
+        $list.push((
+            $crate::scene::json::text::join($path, stringify!($key)),
+            $crate::scene::json::rule::Rule::json(&$rule, &$self.$key),
+        ))
     };
     (@read $at:ident, $row:expr, [required] $rule:expr) => { $at.required($row, $rule) };
     (@read $at:ident, $row:expr, [inherited] $read:expr) => { $at.inherited($row, $read).unwrap_or_default() };

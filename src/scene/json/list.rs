@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::node::Json;
+use super::number::whole;
 use super::range::{Range, SMALLEST};
 use super::rule::{At, Rule};
-use super::scalar::{Count, whole};
+use super::scalar::Count;
 
 /// Three numbers under one rule.
 #[derive(Clone, Copy)]

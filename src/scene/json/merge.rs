@@ -40,7 +40,7 @@ fn merged_member(old: Option<Member>, change: Member) -> Option<Member> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{node, plain};
+    use super::super::testing::node;
     use super::*;
 
     #[test]
@@ -65,7 +65,7 @@ mod tests {
         ];
         for (original, patch, result) in examples {
             let merged = merge(node(original), node(patch));
-            assert_eq!(plain(&merged), plain(&node(result)), "{original} with {patch}");
+            assert_eq!(merged.plain(), node(result).plain(), "{original} with {patch}");
         }
     }
 }

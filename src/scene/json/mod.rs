@@ -11,6 +11,7 @@ pub(crate) mod keys;
 pub(crate) mod list;
 pub(crate) mod merge;
 pub(crate) mod node;
+pub(crate) mod number;
 pub(crate) mod object;
 pub(crate) mod parse;
 mod path;

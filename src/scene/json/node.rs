@@ -1,5 +1,8 @@
 //! A JSON value that knows where it stands in its text.
 
+use serde_json::Value;
+
+use super::number::number;
 use super::span::Span;
 
 /// A JSON value and where it stands.
@@ -38,6 +41,26 @@ impl Node {
             Json::Text(_) => "text",
             Json::List(_) => "a list",
             Json::Object(_) => "an object",
+        }
+    }
+
+    /// The value without the places where its parts stand. Whole numbers are integers.
+    pub(crate) fn plain(&self) -> Value {
+        match &self.json {
+            Json::Null => Value::Null,
+            Json::Bool(value) => (*value).into(),
+            Json::Number(value) => number(*value),
+            Json::Text(text) => text.as_str().into(),
+            Json::List(items) => items.iter().map(Self::plain).collect(),
+            Json::Object(members) => members.iter().map(|m| (m.key.clone(), m.value.plain())).collect(),
+        }
+    }
+
+    /// The keys of an object.
+    pub(crate) fn members(&self) -> Option<&[Member]> {
+        match &self.json {
+            Json::Object(members) => Some(members),
+            _ => None,
         }
     }
 

@@ -8,7 +8,7 @@ use super::node::{Json, Member, Node};
 use super::rule::{At, Rule};
 use super::span::Span;
 use super::suggest::did_you_mean;
-use super::text::{alternatives, join, paragraph, quoted, shown};
+use super::text::{alternatives, join, paragraph, shown};
 
 /// What the objects of one document share while they are read.
 struct Reader<'a> {
@@ -197,11 +197,13 @@ impl<'a> Object<'a, '_> {
     }
 
     fn report_missing(&mut self, name: &str, words: &str) {
-        let finding =
-            Finding::new("scene::missing_key", format!("{} is missing `{name}`", quoted(self.path)))
-                .at(self.span.first(), "in the object that starts here")
-                .key(self.join(name))
-                .help(format!("`{name}` is {words}"));
+        let finding = Finding::new(
+            "scene::missing_key",
+            format!("{} is missing `{name}`", self.reader.diagnostics.quoted(self.path)),
+        )
+        .at(self.span.first(), "in the object that starts here")
+        .key(self.join(name))
+        .help(format!("`{name}` is {words}"));
         self.reader.diagnostics.error(finding);
     }
 

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::node::Json;
+use super::number::number;
 use super::rule::{At, Rule};
-use super::scalar::whole;
 
 /// Largest magnitude of any number: squares and sums of such numbers stay finite.
 const LARGEST: f64 = 1e15;
@@ -70,7 +70,7 @@ impl Rule for Range {
     }
 
     fn json(&self, value: &f64) -> Value {
-        whole(*value).map_or_else(|| json!(value), |whole| json!(whole))
+        number(*value)
     }
 
     fn placeholder(&self) -> f64 {

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::diagnostic::Diagnostics;
 use super::finding::Finding;
 use super::node::{Json, Node};
-use super::text::{quoted, shown};
+use super::text::shown;
 
 /// A value and the dotted key that leads to it.
 pub(crate) struct At<'a> {
@@ -43,14 +43,15 @@ impl At<'_> {
             }
             _ => "",
         };
-        let message = format!("{} is {} but must be {words}", quoted(self.key), self.node.kind());
+        let message =
+            format!("{} is {} but must be {words}", self.diagnostics.quoted(self.key), self.node.kind());
         self.refuse(Finding::new("scene::wrong_type", message).help(help), "wrong type")
     }
 
     /// Reports a value that its rule does not allow.
     pub(crate) fn not_allowed<T>(&mut self, code: &'static str, words: &str, help: &str) -> Option<T> {
         let found = shown(&self.diagnostics.text(self.node.span));
-        let message = format!("{} is {found} but must be {words}", quoted(self.key));
+        let message = format!("{} is {found} but must be {words}", self.diagnostics.quoted(self.key));
         self.refuse(Finding::new(code, message).help(help), "not allowed")
     }
 

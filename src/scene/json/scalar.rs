@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::node::Json;
+use super::number::whole;
 use super::rule::{At, Rule};
 use super::text::alternatives;
 
@@ -39,13 +40,6 @@ impl<T: Copy + PartialOrd + Display + Serialize + TryFrom<i64>> Rule for Count<T
     fn placeholder(&self) -> T {
         self.0
     }
-}
-
-/// `value` as an integer, if it is one of at most 2^53.
-pub(super) fn whole(value: f64) -> Option<i64> {
-    const EXACT: f64 = 9_007_199_254_740_992.0;
-    #[expect(clippy::cast_possible_truncation, reason = "the guard leaves exact integers only")]
-    (value.fract() == 0.0 && (-EXACT..=EXACT).contains(&value)).then_some(value as i64)
 }
 
 /// `true` or `false`.

@@ -76,6 +76,8 @@ prop_compose! {
             num_height_points: points.1,
             thickness,
             orientation: if vertical { Orientation::Vertical } else { Orientation::Horizontal },
+            offset: Vec3::zeros(),
+            velocity: Vec3::zeros(),
             pinned: pins.iter().map(|&(i, j)| [i % points.0, j % points.1]).collect(),
             damping,
             density,

@@ -38,3 +38,25 @@ fn a_framebuffer_keeps_nothing_of_the_picture_before() {
     assert_ne!(afresh.rgb, first.0);
     assert_eq!((framebuffer.rgb(), framebuffer.depth()), (afresh.rgb, afresh.depth));
 }
+
+#[test]
+fn a_renderer_changes_its_scene_and_keeps_what_it_has_read() {
+    let scene = |shader: &str, size: &str| {
+        let sets = vec![format!("sphere.material.shader={shader}"), format!("render.size={size}")];
+        load_text("ball", BALL, &Overrides { sets, ..Overrides::default() }).unwrap().scene
+    };
+    let afresh = |shader, size| Renderer::new(&scene(shader, size), &TextureSource::BuiltIn).unwrap();
+    let picture = |renderer: &Renderer| {
+        renderer.draw(Simulation::new(&scene("phong", "[8,8]")).unwrap().positions(), &Options::default()).rgb
+    };
+    let mut renderer = afresh("texture", "[70,66]");
+    // A folder without textures: the one that was read already is not looked for again.
+    let nothing = TextureSource::Folder("no folder".into());
+    renderer.change_scene(&scene("texture", "[50,40]"), &nothing).unwrap();
+    assert_eq!(picture(&renderer), picture(&afresh("texture", "[50,40]")));
+    let before = picture(&renderer);
+    renderer.change_scene(&scene("mirror", "[50,40]"), &nothing).unwrap_err();
+    assert_eq!(picture(&renderer), before, "a scene that cannot be drawn changes nothing");
+    renderer.change_scene(&scene("mirror", "[30,20]"), &TextureSource::BuiltIn).unwrap();
+    assert_eq!(picture(&renderer), picture(&afresh("mirror", "[30,20]")));
+}

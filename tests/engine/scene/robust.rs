@@ -28,13 +28,13 @@ fn in_range(scene: &Scene) -> Result<(), TestCaseError> {
         prop_assert!(material(&c.material));
     }
     for s in scene.spheres() {
-        prop_assert!(any(s.origin) && positive(s.radius) && (0.0..=1.0).contains(&s.friction));
+        prop_assert!(any(s.origin) && positive(s.radius) && (0.0..=1e15).contains(&s.friction));
         prop_assert!((2..=1000).contains(&s.resolution[0]) && (3..=1000).contains(&s.resolution[1]));
         prop_assert!(material(&s.material));
     }
     for p in scene.planes() {
         prop_assert!(any(p.point) && any(p.normal) && p.normal.amax() >= 1e-15);
-        prop_assert!((0.0..=1.0).contains(&p.friction) && material(&p.material));
+        prop_assert!((0.0..=1e15).contains(&p.friction) && material(&p.material));
     }
     let sim = &scene.sim;
     prop_assert!((1e-6..=1e9).contains(&sim.fps) && (1..=1_000_000_000).contains(&sim.steps_per_frame));

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use drape::scene::{Collider, Overrides, load_text, schema};
+use drape::scene::{Collider, ColliderKind, Overrides, load_text, schema};
 use jsonschema::Validator;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -91,7 +91,7 @@ fn wrong_scenes_are_refused() {
         json!({ "sphere": [sphere(), { "radius": 1 }] }),
         json!({ "sphere": { "origin": [0, 0], "radius": 1, "friction": 0 } }),
         json!({ "sphere": { "origin": [0, 0, 0], "radius": 0, "friction": 0 } }),
-        json!({ "sphere": { "origin": [0, 0, 0], "radius": 1, "friction": 1.1 } }),
+        json!({ "sphere": { "origin": [0, 0, 0], "radius": 1, "friction": -0.1 } }),
         json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 0], "friction": 0 } }),
         json!({ "sim": { "steps_per_frame": 1.5 } }),
         json!({ "sim": { "gravity": "down" } }),
@@ -169,6 +169,7 @@ fn base() -> Value {
     let mut scene =
         documents("scenes").into_iter().find(|(name, _)| name.ends_with("sphere.json")).expect("it").1;
     scene["plane"] = json!({ "point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0 });
+    scene["box"] = json!({ "origin": [0, 0, 0], "size": [1, 1, 1], "friction": 0 });
     scene
 }
 
@@ -181,8 +182,15 @@ fn agree(validator: &Validator, document: &Value) -> Result<bool, String> {
     };
     let codes: Vec<&str> = error.diagnostics.iter().map(|d| d.code).collect();
     // Two values together, which the schema cannot see, or sees in part.
-    let relations =
-        ["near_far", "damping", "too_many_points", "too_many_objects", "pin_outside", "duplicate_pin"];
+    let relations = [
+        "near_far",
+        "damping",
+        "friction",
+        "too_many_points",
+        "too_many_objects",
+        "pin_outside",
+        "duplicate_pin",
+    ];
     let alone = codes.iter().any(|code| !relations.contains(&code.trim_start_matches("scene::")));
     match (valid, alone) {
         (true, true) => Err(format!("only the reader refuses {document}: {codes:?}")),
@@ -230,7 +238,8 @@ fn every_default_is_the_value_of_a_key_that_is_left_out() {
         // A colour that is given is that of planes too, which are grey otherwise.
         if path == ["material", "color"] {
             let planes = scene.planes().cloned().map(Collider::Plane);
-            given.colliders = planes.chain(given.spheres().cloned().map(Collider::Sphere)).collect();
+            given.colliders.retain(|collider| collider.kind() != ColliderKind::Plane);
+            given.colliders.splice(0..0, planes);
         }
         assert!(given == scene, "{path:?} is not {default}");
         defaults += 1;

@@ -3,9 +3,9 @@
 use std::fs;
 
 use drape::scene::{
-    Bitangent, Camera, Cloth, Collider, Contact, Damping, Filter, Integrator, Light, Material, Orientation,
-    Overrides, Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3, load,
-    load_text,
+    Bitangent, Camera, Cloth, Collider, Contact, Cuboid, Damping, Filter, Integrator, Light, Material,
+    Orientation, Overrides, Plane, Precision, Render, Scene, SelfCollision, Shader, Sim, Sphere, Start, Vec3,
+    load, load_text,
 };
 
 const STOCK: [&str; 5] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision"];
@@ -96,6 +96,8 @@ fn stock_cloth() -> Cloth {
         num_height_points: 50,
         thickness: 0.0095,
         orientation: Orientation::Horizontal,
+        offset: Vec3::zeros(),
+        velocity: Vec3::zeros(),
         pinned: vec![],
         damping: 0.2,
         density: 150.0,
@@ -178,6 +180,7 @@ fn every_optional_key_is_read() {
                    "bitangent": "uv", "two_sided": true},
       "sphere": [{"origin": [1, 2, 3], "radius": 4, "friction": 1, "resolution": [16, 8]}],
       "plane": {"point": [1, 2, 3], "normal": [0, 0, -4], "friction": 0},
+      "box": {"origin": [1, 2, 3], "size": [4, 5, 6], "friction": 0.5},
       "render": {"size": [640, 480], "samples": 16, "background": [0, 1, 0], "time": 0, "filter": "nearest",
                  "seamless": true}
     }"#;
@@ -236,6 +239,12 @@ fn every_optional_key_is_read() {
                 radius: 4.0,
                 friction: 1.0,
                 resolution: [16, 8],
+                material: material.clone(),
+            }),
+            Collider::Cuboid(Cuboid {
+                origin: v123,
+                size: Vec3::new(4.0, 5.0, 6.0),
+                friction: 0.5,
                 material,
             }),
         ],

@@ -159,3 +159,22 @@ fn unknown_built_in_names_list_the_known_ones() {
     let error = TextureSource::BuiltIn.cubemap("texture_1").unwrap_err();
     assert!(error.message.contains("cube map \"texture_1\"") && error.help.contains("cube"), "{error}");
 }
+
+#[test]
+fn files_in_memory_go_before_the_built_in_ones() {
+    let picture = |color: u8| {
+        let image: DynamicImage = image::RgbImage::from_pixel(8, 8, Rgb([color; 3])).into();
+        encode(&image, ImageFormat::Png)
+    };
+    let mut files = std::collections::BTreeMap::from([("texture_1".to_owned(), picture(51))]);
+    files.extend(FACES[..5].iter().map(|face| (format!("room/{face}"), picture(102))));
+    let source = TextureSource::Memory(files.clone());
+    assert_eq!(source.texture("texture_1").unwrap().texel(0, 0)[..3], [0.2; 3]);
+    assert_eq!(source.texture("texture_2"), TextureSource::BuiltIn.texture("texture_2"));
+    assert_eq!(source.cubemap("cube"), TextureSource::BuiltIn.cubemap("cube"));
+    assert_eq!(source.texture("plaid").unwrap_err().kind, Kind::Scene);
+    assert_eq!(source.cubemap("room").unwrap_err().message, "there is no texture room/negz");
+    files.insert("room/negz".to_owned(), picture(153));
+    let room = TextureSource::Memory(files).cubemap("room").unwrap();
+    assert_eq!((room.size(), room.faces()[5].texel(0, 0)[0]), (8, 0.6));
+}

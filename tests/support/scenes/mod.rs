@@ -58,6 +58,8 @@ pub(crate) fn cloth() -> Cloth {
         num_height_points: 50,
         thickness: 0.0095,
         orientation: Orientation::Horizontal,
+        offset: Vec3::zeros(),
+        velocity: Vec3::zeros(),
         pinned: Vec::new(),
         damping: 0.2,
         density: 150.0,

@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::animation::pattern::Pattern;
 use crate::args::frames::Frames;
 use crate::args::scene::{Moment, SceneArgs};
+use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
@@ -33,6 +34,8 @@ pub(crate) struct Args {
     mesh: PathBuf,
     #[command(flatten)]
     moment: Moment,
+    #[command(flatten)]
+    state: StateArgs,
     /// Export the frames from A to B, without B: a numbered file each, or in a .glb the motion as an animation
     #[arg(long, value_name = "A..B", conflicts_with_all = ["time", "frame", "until_rest"])]
     frames: Option<Frames>,
@@ -71,8 +74,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (frames, until) = args.frames(&scene)?;
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
-    writer.check(&args.scene.inputs(), &scene, args.objects, &frames)?;
+    let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
+    writer.check(&inputs, &scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    args.state.restore(&mut simulation, &scene, frames.start)?;
+    let mut saving = args.state.saving(&scene);
     let mut motion = Motion::default();
     let ended = advance_until(&mut simulation, &scene, until, session, |simulation| {
         match (&args.frames, format) {
@@ -82,8 +88,9 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
             }
             _ => {}
         }
-        Ok(())
+        saving.after_frame(simulation)
     })?;
+    saving.finish(&simulation)?;
     let parts = args.parts(&scene, &simulation);
     if writer.pattern.is_none() {
         writer.whole(args.base(parts.clone(), &motion), Some(&motion).filter(|_| args.frames.is_some()))?;

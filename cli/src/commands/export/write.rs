@@ -28,13 +28,14 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Checks, before long work, that the files can be written; reads the textures that they take.
+    /// Checks, before long work, that the files and `others` can be written; reads the textures that they take.
     pub(super) fn check(
         &self,
         inputs: &[PathBuf],
         scene: &Scene,
         objects: bool,
         frames: &Range<u64>,
+        others: &[(&Path, Content)],
     ) -> Result<()> {
         if self.materials && (is_stdout(self.path) || self.format == Format::Ply) {
             return Err(Error::new(Kind::Usage, "--materials writes files beside an .obj file")
@@ -49,7 +50,8 @@ impl Writer<'_> {
             None => vec![self.path.to_path_buf()],
         };
         let library = self.library().filter(|_| self.pattern.is_none());
-        outputs::check(inputs, outputs.iter().chain(&library).map(|path| (path.as_path(), content)))?;
+        let meshes = outputs.iter().chain(&library).map(|path| (path.as_path(), content));
+        outputs::check(inputs, meshes.chain(others.iter().copied()))?;
         let names = scene.materials().filter(|_| objects || scene.cloth.is_some());
         for material in names.filter(|material| self.has_materials() && Needs::of(material.shader).texture) {
             self.source.texture(&material.texture)?;

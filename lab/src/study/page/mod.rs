@@ -7,7 +7,7 @@ use super::findings::{Cost, PanelStudy, Study};
 use super::method::{METHODS, MODEL};
 use super::pictures::Pictures;
 use crate::page::comparison::figure;
-use crate::page::{self, escape, short};
+use crate::page::{self, escape, live::Live, short};
 use drape::error::Result;
 use drape::output::compare::difference_picture;
 use drape::output::png::Effort;
@@ -18,11 +18,11 @@ const STYLE: &str = "<style>.plots{display:flex;flex-wrap:wrap;gap:1rem}\
 .plots>svg{flex:1 1 22rem;min-width:0;max-width:38rem}details{margin:1rem 0}th,td.name{white-space:normal}\
 .worded th:nth-child(2),.worded td:nth-child(2){white-space:normal;text-align:left;min-width:9rem}</style>\n";
 
-/// The page of `study` of the scene called `scene`.
+/// The page of `study` of the scene called `scene`; with links to its runs on a live page, if there is one.
 ///
 /// # Errors
 /// Those of the renderer.
-pub fn page(study: &Study, scene: &str) -> Result<String> {
+pub fn page(study: &Study, scene: &str, live: Option<&Live>) -> Result<String> {
     let mut text = page::head(&format!("Speed against accuracy: {scene}")) + STYLE;
     text += &format!("<p>{}</p>\n", introduction(study));
     text += "<h2>If you can pay this, use that</h2>\n<p>The budget is wall time: per simulated second, or per picture.</p>\n";
@@ -35,7 +35,7 @@ pub fn page(study: &Study, scene: &str) -> Result<String> {
             &format!("<h3>Pictures</h3>\n<div class=\"worded\">{}</div>\n", tables::picture_advice(pictures));
     }
     for (number, panel) in study.panels.iter().enumerate() {
-        text += &section(study, panel, number);
+        text += &section(study, panel, number, live);
     }
     for k_over_m in &study.left_out {
         text += &format!("<p>k/m = {k_over_m:.2e} /s² is left out: its reference would take too long.</p>\n");
@@ -101,7 +101,7 @@ fn heading(panel: &PanelStudy) -> String {
     )
 }
 
-fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
+fn section(study: &Study, panel: &PanelStudy, number: usize, live: Option<&Live>) -> String {
     let plots = [Cost::Wall, Cost::Springs].map(|cost| plots::work_precision(study, panel, cost, number));
     let [by_time, by_count] = [Cost::Wall, Cost::Springs].map(|cost| {
         let names: Vec<_> = panel.front(cost).into_iter().map(|i| escape(&panel.name(i))).collect();
@@ -123,7 +123,7 @@ fn section(study: &Study, panel: &PanelStudy, number: usize) -> String {
         plots.concat(),
         study.extent.most_springs,
         panel.cells.len(),
-        tables::cells(study, panel),
+        tables::cells(study, panel, live),
     )
 }
 

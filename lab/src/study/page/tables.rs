@@ -1,9 +1,11 @@
 //! The tables of the page.
 
-use crate::page::{Cells, escape, table};
+use crate::page::{Cells, escape, live::Live, table};
 use crate::study::findings::{Cost, PanelStudy, Study};
+use crate::study::method::METHODS;
 use crate::study::pareto::{self, front};
 use crate::study::pictures::Pictures;
+use crate::study::rates::clock;
 
 /// The best choice within each budget of time per simulated second.
 pub(super) fn advice(panel: &PanelStudy) -> String {
@@ -41,8 +43,20 @@ pub(super) fn picture_advice(pictures: &Pictures) -> String {
     table(&["pay", "use", "error (of 255)", "takes (ms)", "fragments"], Cells::Numbers, rows)
 }
 
+/// The name of a run, linked to the run on the live page if there is one.
+fn run_name(panel: &PanelStudy, cell: usize, live: Option<&Live>) -> String {
+    let name = escape(&panel.name(cell));
+    let (Some(live), Some(found)) = (live, panel.cells.get(cell)) else { return name };
+    let clock = clock(FPS, found.rate);
+    let sets = panel.panel.sets.iter().chain(&METHODS[found.method].sets).chain(&clock);
+    live.with(sets.map(|set| ("set", set.as_str()))).link(&name)
+}
+
+/// Frames a second on the live page, where the rate of a run allows it.
+const FPS: f64 = 90.0;
+
 /// All cells of a panel.
-pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
+pub(super) fn cells(study: &Study, panel: &PanelStudy, live: Option<&Live>) -> String {
     let times: Vec<String> = study
         .extent
         .tenths
@@ -53,7 +67,7 @@ pub(super) fn cells(study: &Study, panel: &PanelStudy) -> String {
     head.extend(times.iter().map(String::as_str));
     let rows = panel.cells.iter().enumerate().map(|(i, cell)| {
         let mut row = vec![
-            escape(&panel.name(i)),
+            run_name(panel, i, live),
             cell.fate(times.len()),
             format!("{:.4}", cell.wall()),
             format!("{:.2e}", cell.springs),

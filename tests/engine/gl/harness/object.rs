@@ -34,6 +34,7 @@ pub(crate) fn objects<'a>(scene: &'a Scene, points: &Points) -> Vec<Object<'a>> 
         let needs = Needs::of(material.shader);
         let (mesh, model) = match collider {
             Collider::Plane(plane) => (Mesh::plane(plane, needs), model(Vec3::zeros(), 1.0)),
+            Collider::Cuboid(cuboid) => (Mesh::cuboid(cuboid, needs), model(Vec3::zeros(), 1.0)),
             Collider::Sphere(sphere) => {
                 (Mesh::sphere(sphere, needs), model(sphere.origin, sphere.radius * 0.92))
             }

@@ -1,11 +1,10 @@
-//! The messages about a step that exceeds the stability bound of an explicit integrator.
+//! What is said about a step that is too long for the springs, and which values it allows.
 
-use crate::session::ui::Ui;
-use drape::diagnostics::stability::Stability;
-use drape::error::{Error, Kind};
+use super::stability::Stability;
+use crate::error::{Error, Kind};
 
 /// The error of a step that is too long for the springs even at rest.
-pub(crate) fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Error {
+pub fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Error {
     let Stability { mass, dt, limit, omega_rest, .. } = *stability;
     let (found, limit_text) = apart(dt * omega_rest, limit);
     let message = format!(
@@ -22,19 +21,6 @@ pub(crate) fn unstable_at_rest(stability: &Stability, ks: f64, steps: u32) -> Er
     Error::new(Kind::Unstable, message).with_help(help)
 }
 
-/// Warns of a step that is stable at rest, but not in every deformation.
-pub(crate) fn warn_of_deformation(stability: &Stability, steps: u32, ui: &Ui) {
-    let Stability { dt, limit_worst, omega_rest, omega_safe, .. } = *stability;
-    let undamped = if limit_worst < stability.limit { " without damping" } else { "" };
-    let [rest, worst] = [dt * omega_rest, dt * omega_safe];
-    let message = format!(
-        "the cloth may become unstable in motion: dt·ω is {rest:.3} at rest and {worst:.3} at worst (any \
-         deformation), and must be below {limit_worst:.3}{undamped}"
-    );
-    let steps_worst = stability.fewest_steps_worst();
-    ui.caution(&message, &format!("raise steps_per_frame from {steps} to at least {steps_worst}"));
-}
-
 /// Two numbers with two decimals, or with as many as it takes for them to differ.
 fn apart(a: f64, b: f64) -> (String, String) {
     let text = |decimals: usize| (format!("{a:.decimals$}"), format!("{b:.decimals$}"));
@@ -43,7 +29,7 @@ fn apart(a: f64, b: f64) -> (String, String) {
 
 /// The largest ks of four digits, in N/m, for which the step is stable at rest and at worst; not finite if the
 /// springs have no stiffness.
-pub(crate) fn largest_ks(stability: &Stability, ks: f64) -> [f64; 2] {
+pub fn largest_ks(stability: &Stability, ks: f64) -> [f64; 2] {
     let Stability { dt, limit, limit_worst, omega_rest, omega_safe, .. } = *stability;
     [limit / (dt * omega_rest), limit_worst / (dt * omega_safe)].map(|part| {
         // The bound itself is not stable, and ω of another ks is rounded differently.

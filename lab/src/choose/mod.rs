@@ -1,0 +1,161 @@
+//! Accuracy on demand: the cheapest integrator and steps per frame whose points are within a given distance of the
+//! limit of ever smaller steps, at the moment that a user draws, or the most accurate within a given time.
+//!
+//! The limit is that of the model that the scene asks for, contact, stretch limit and self-collision included, with the
+//! settings that have no limit replaced by those that have ([`ladder`](self)): damping per step is damping per
+//! second, whose difference is told apart. A ladder of runs under Verlet's scheme finds it; the error of every candidate is its
+//! distance from there, so it needs no order of convergence of its own.
+//! `docs/choose.md` has what an estimate is worth.
+
+pub mod goal;
+mod estimate;
+mod level;
+mod ladder;
+mod others;
+mod answer;
+mod reason;
+mod budget;
+
+use rayon::prelude::*;
+
+use crate::horizon::Horizon;
+use crate::study::source::Source;
+use drape::error::{Error, Kind, Result};
+use drape::scene::{Integrator, Scene};
+use estimate::Limit;
+use goal::Tolerance;
+use ladder::Ladder;
+use level::{Level, Outcome, Runner, Settings};
+use others::{Trial, trials};
+
+pub use answer::{Answer, Candidate, Choice, Model};
+pub use budget::within_budget;
+
+/// The integrators that are tried beside Verlet's scheme.
+fn other_integrators() -> impl ParallelIterator<Item = Integrator> {
+    let names: Vec<Integrator> = Integrator::NAMES.iter().map(|row| row.1).collect();
+    names.into_par_iter().filter(|integrator| *integrator != Integrator::Verlet)
+}
+
+/// The cheapest settings within `tolerance` at frame `frames`. `watch` is called after each simulated frame, from several
+/// threads, and can end the search with an error.
+///
+/// # Errors
+/// Those of the scene, of the simulations and of `watch`; [`Kind::Nothing`] for a scene without a cloth, or for the start.
+pub fn within(
+    source: &Source,
+    frames: u64,
+    tolerance: Tolerance,
+    watch: &(dyn Fn() -> Result<()> + Sync),
+) -> Result<Answer> {
+    let scene = source.scene(&[])?;
+    check_moment(frames)?;
+    let runner = Runner { source, frames, measure: tolerance.measure, watch };
+    let mut ladder = Ladder::climb(&runner, &scene, tolerance)?;
+    let Some((verlet, limit)) = on_the_ladder(&runner, &mut ladder, tolerance)? else {
+        return reason::none(&runner, &scene, &ladder, tolerance);
+    };
+    let work = verlet.springs;
+    let found: Vec<Vec<Trial>> = other_integrators()
+        .map(|integrator| trials(&runner, integrator, &ladder.cures, &limit, tolerance, work))
+        .collect::<Result<_>>()?;
+    let mut best = (ladder.settings(verlet.steps), verlet);
+    for Trial { settings, outcome } in found.iter().flatten() {
+        if let Outcome::Done(level) = outcome
+            && ladder.worst(level, &limit) <= tolerance.value
+            && level.springs < best.1.springs
+        {
+            best = (settings.clone(), level.clone());
+        }
+    }
+    let horizon = Horizon::of(source, &ladder.settings(ladder.levels[0].steps).sets(), frames, watch)?;
+    let (settings, level) = best;
+    Ok(Answer {
+        choice: Some(Choice::new(&settings, &level, [ladder.error(&level, &limit), limit.uncertainty])),
+        candidates: candidates(&ladder, Some(&limit), &found),
+        horizon: horizon.reached(reason::metres(tolerance).unwrap_or(f64::INFINITY)),
+        model: model(&runner, &scene, &ladder, &limit)?,
+        reason: None,
+        measure: tolerance.measure,
+    })
+}
+
+fn check_moment(frames: u64) -> Result<()> {
+    if frames > 0 {
+        return Ok(());
+    }
+    Err(Error::new(Kind::Nothing, "at the start every step gives the same answer")
+        .with_help("name a later moment with --time or --frame"))
+}
+
+/// The level with the largest step that is within `tolerance`, and the limit; `None` if there is no limit. A number
+/// of steps that the ladder only predicts is run and looked at; if it is not within, the ladder goes on.
+fn on_the_ladder(
+    runner: &Runner<'_>,
+    ladder: &mut Ladder,
+    tolerance: Tolerance,
+) -> Result<Option<(Level, Limit)>> {
+    while let Some((steps, limit)) = ladder.enough(tolerance).zip(ladder.limit.clone()) {
+        let known = ladder.levels.iter().find(|level| level.steps == steps).cloned();
+        let is_new = known.is_none();
+        let level = known.map_or_else(|| ladder.run(runner, steps), Ok)?;
+        let within = ladder.worst(&level, &limit) <= tolerance.value;
+        if is_new {
+            ladder.tried.push(level.clone());
+        }
+        if within {
+            return Ok(Some((level, limit)));
+        }
+        ladder.climb_on(runner, tolerance)?;
+    }
+    Ok(None)
+}
+
+/// Everything that was run.
+fn candidates(ladder: &Ladder, limit: Option<&Limit>, found: &[Vec<Trial>]) -> Vec<Candidate> {
+    let done = |mut candidate: Candidate, level: &Level| {
+        candidate.error = limit.map(|limit| ladder.error(level, limit));
+        candidate.uncertainty = limit.map(|limit| limit.uncertainty);
+        candidate.ms = Some(level.time.as_secs_f64() * 1e3);
+        candidate
+    };
+    let mut levels: Vec<&Level> = ladder.levels.iter().chain(&ladder.tried).collect();
+    levels.sort_by_key(|level| level.steps);
+    let of_ladder = levels
+        .into_iter()
+        .map(|level| done(Candidate::of(Integrator::Verlet, level.steps, level.springs), level));
+    let of_others = found.iter().flatten().map(|Trial { settings, outcome }| {
+        let of = |springs| Candidate::of(settings.integrator, settings.steps, springs);
+        match outcome {
+            Outcome::Done(level) => done(of(level.springs), level),
+            Outcome::Unstable => Candidate { ended: Some("unstable"), ..of(0) },
+            Outcome::TooDear(springs) => {
+                Candidate { ended: Some("given up, as it visits more springs"), ..of(*springs) }
+            }
+        }
+    });
+    of_ladder.chain(of_others).collect()
+}
+
+/// How far the scene as it is written is from the limit, and what damping per step makes of that.
+fn model(runner: &Runner<'_>, scene: &Scene, ladder: &Ladder, limit: &Limit) -> Result<Vec<Model>> {
+    let mut model = Vec::new();
+    if let Outcome::Done(level) = runner.run_as_written(scene)? {
+        model.push(Model { what: "the scene as it is written, off by", error: ladder.error(&level, limit) });
+    }
+    let per_second = "sim.damping=per_second".to_owned();
+    if ladder.cures.contains(&per_second) {
+        let sets = ladder.cures.iter().filter(|cure| **cure != per_second).cloned().collect();
+        let settings = Settings { integrator: Integrator::Verlet, steps: scene.sim.steps_per_frame, sets };
+        let cured = Settings { sets: ladder.cures.clone(), ..settings.clone() };
+        let [a, b] = [runner.run(&settings)?, runner.run(&cured)?];
+        if let (Outcome::Done(a), Outcome::Done(b)) = (a, b) {
+            let error = limit.measure.distance(&a.shape, &b.shape);
+            model.push(Model {
+                what: "damping per step differs from damping per second, which no step cures, by",
+                error,
+            });
+        }
+    }
+    Ok(model)
+}

@@ -1,0 +1,94 @@
+//! Why no settings are within what was asked.
+
+use super::answer::Answer;
+use super::goal::{Measure, Tolerance};
+use super::ladder::Ladder;
+use super::level::Runner;
+use super::{candidates, others::Trial};
+use crate::horizon::Horizon;
+use drape::error::Result;
+use drape::scene::Scene;
+
+/// The part of the tolerance that copies may have parted by where positions can be told.
+const HORIZON: f64 = 0.5;
+
+/// The tolerance in metres.
+pub(super) fn metres(tolerance: Tolerance) -> Option<f64> {
+    (tolerance.measure != Measure::Pixels).then_some(tolerance.value)
+}
+
+/// The answer where the ladder found no limit: whether copies that differ by rounding have parted, or which settings
+/// of the scene have no limit, and what can be promised nevertheless.
+pub(super) fn none(
+    runner: &Runner<'_>,
+    scene: &Scene,
+    ladder: &Ladder,
+    tolerance: Tolerance,
+) -> Result<Answer> {
+    let last = &ladder.levels[ladder.levels.len() - 1];
+    let sets = ladder.settings(last.steps).sets();
+    let horizon = Horizon::of(runner.source, &sets, runner.frames, runner.watch)?;
+    let parted = horizon.partings.last().map_or(0.0, |parting| parting.max);
+    let unit = tolerance.measure.unit();
+    let asked = tolerance.value;
+    let floor = match ladder.levels.as_slice() {
+        [.., a, b] => tolerance.measure.distance(&a.shape, &b.shape),
+        _ => f64::NAN,
+    };
+    let floor = format!(
+        "halving the step still moves the points by {floor:.2e} {unit} ({}) and that does not shrink, so the limit is not \
+         known to the {asked:e} {unit} that were asked for",
+        tolerance.measure.words()
+    );
+    let cause = if metres(tolerance).is_none_or(|asked| parted > HORIZON * asked)
+        && parted > 1e6 * horizon.rounding
+    {
+        let growth = horizon
+            .growth
+            .map_or_else(String::new, |rate| format!(", growing by e every {:.3} s", 1.0 / rate));
+        format!(
+            "the motion is beyond its horizon: copies that differ by rounding, {:.1e} m, are {parted:.1e} m apart{growth}",
+            horizon.rounding
+        )
+    } else {
+        let terms: Vec<&str> = without_limit(scene);
+        if terms.is_empty() {
+            "the rounding of the positions is reached".to_owned()
+        } else {
+            format!("what has no limit as the step shrinks: {}", terms.join(", "))
+        }
+    };
+    let spread = |of: usize| {
+        let values =
+            ladder.levels[ladder.levels.len().saturating_sub(3)..].iter().map(|level| level.extent[of]);
+        let (low, high) =
+            (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+        format!("{low:.4} to {high:.4} m")
+    };
+    let promised = format!(
+        "what runs agree on: lowest point {}, mean height {}, highest point {}",
+        spread(0),
+        spread(1),
+        spread(2)
+    );
+    Ok(Answer {
+        choice: None,
+        candidates: candidates(ladder, None, &Vec::<Vec<Trial>>::new()),
+        horizon: metres(tolerance).and_then(|asked| horizon.reached(HORIZON * asked)),
+        model: Vec::new(),
+        reason: Some(format!("{floor}\n{cause}\n{promised}")),
+        measure: tolerance.measure,
+    })
+}
+
+/// The settings of a scene that can have no limit as the step shrinks.
+fn without_limit(scene: &Scene) -> Vec<&'static str> {
+    let mut terms = Vec::new();
+    if scene.needed_stretch_limit().is_some() {
+        terms.push("the stretch limit, which moves springs once a step");
+    }
+    if scene.needed_self_collision() != drape::scene::SelfCollision::Off {
+        terms.push("self-collision, which pushes points once a step");
+    }
+    terms
+}

@@ -1,0 +1,177 @@
+//! For how long the positions of a simulation can be trusted at all.
+//!
+//! After contact the motion of a cloth is chaotic: copies of it that differ by the rounding of their start,
+//! 1e-16 m, part by a factor in every frame, whatever the step. From the moment at which they have parted by
+//! a millimetre on, no number of steps gives the positions of the points to a millimetre; what copies have in common,
+//! such as the energy and the extent, can still be told.
+
+mod copies;
+mod page;
+
+use serde::Serialize;
+
+use crate::study::source::Source;
+use drape::error::Result;
+use drape::math;
+use drape::scene::Vec3;
+
+pub use copies::COPIES;
+pub use page::page;
+
+/// Distances that are looked for, in metres, with their names.
+pub const DISTANCES: [(f64, &str); 3] = [(1e-6, "1 um"), (1e-3, "1 mm"), (1e-2, "1 cm")];
+
+/// How far copies have parted at the end of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Parting {
+    /// Simulated time, in seconds.
+    pub time: f64,
+    /// Root of the mean of the squared distances from the first copy, over points and copies, in metres.
+    pub rms: f64,
+    /// Largest distance of a point from the same one of the first copy, in metres.
+    pub max: f64,
+}
+
+/// Copies of a simulation beside each other.
+#[derive(Clone, Debug, Serialize)]
+pub struct Horizon {
+    /// What the start of a copy differs by in each coordinate, in metres.
+    pub rounding: f64,
+    /// After each frame.
+    pub partings: Vec<Parting>,
+    /// The first time at which a point has parted by each of [`DISTANCES`], in seconds.
+    pub times: Vec<Reached>,
+    /// How fast the root mean square distance grows before it reaches the first of [`DISTANCES`], in 1/s: by the
+    /// factor e in the inverse of it. `None` if it does not grow in five frames or more.
+    pub growth: Option<f64>,
+    /// The lowest and highest of the copies at the end.
+    pub spread: Spread,
+    /// Of each point, row by row: the largest distance of a copy at the end, in metres.
+    #[serde(skip)]
+    pub map: Vec<f64>,
+    /// Columns and rows of points.
+    #[serde(skip)]
+    pub size: [usize; 2],
+}
+
+/// When the copies have parted by a distance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Reached {
+    /// In metres.
+    pub distance: f64,
+    /// In seconds; `None` if not by the end.
+    pub time: Option<f64>,
+}
+
+/// What copies agree on: the lowest and highest value over the copies at the end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Total energy, in J.
+    pub energy: [f64; 2],
+    /// Height of the lowest point, in metres.
+    pub lowest: [f64; 2],
+    /// Mean height of the points, in metres.
+    pub mean: [f64; 2],
+    /// Height of the highest point, in metres.
+    pub highest: [f64; 2],
+}
+
+impl Horizon {
+    /// Runs `source`, with the further changes `sets`, for `frames` frames beside copies. `watch` is called after
+    /// each frame and can end it with an error.
+    ///
+    /// # Errors
+    /// Those of the scene, of the simulation, and of `watch`.
+    pub fn of(
+        source: &Source,
+        sets: &[String],
+        frames: u64,
+        watch: &(dyn Fn() -> Result<()> + Sync),
+    ) -> Result<Self> {
+        let scene = source.scene(sets)?;
+        let mut copies = copies::Copies::new(&scene)?;
+        let mut partings = Vec::new();
+        for _ in 0..frames {
+            copies.advance()?;
+            watch()?;
+            partings.push(copies.parting());
+        }
+        let size = scene.cloth.as_ref().map_or([0, 0], |c| [c.num_width_points, c.num_height_points]);
+        Ok(Self {
+            rounding: copies.rounding,
+            times: DISTANCES
+                .map(|(distance, _)| Reached { distance, time: reached(&partings, distance) })
+                .to_vec(),
+            growth: growth(&partings),
+            spread: copies.spread(),
+            map: copies.map(),
+            size,
+            partings,
+        })
+    }
+
+    /// The first time at which a point has parted by `distance` metres, in seconds.
+    pub fn reached(&self, distance: f64) -> Option<f64> {
+        reached(&self.partings, distance)
+    }
+}
+
+fn reached(partings: &[Parting], distance: f64) -> Option<f64> {
+    partings.iter().find(|parting| parting.max >= distance).map(|parting| parting.time)
+}
+
+/// The slope of a line through the logarithms of the distances, by least squares, from the last minimum before
+/// the first of [`DISTANCES`] on.
+fn growth(partings: &[Parting]) -> Option<f64> {
+    let end = partings.iter().position(|p| p.rms >= DISTANCES[0].0).unwrap_or(partings.len());
+    let before = &partings[..end];
+    let start = before.iter().rposition(|p| p.rms <= 4.0 * least(before)).unwrap_or(0);
+    let points: Vec<[f64; 2]> =
+        before[start..].iter().filter(|p| p.rms > 0.0).map(|p| [p.time, math::ln(p.rms)]).collect();
+    if points.len() < 5 {
+        return None;
+    }
+    let n = points.len() as f64;
+    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / n;
+    let [t, y] = [mean(0), mean(1)];
+    let product =
+        |i: usize, j: usize| points.iter().map(|p| [p[0] - t, p[1] - y]).map(|p| p[i] * p[j]).sum::<f64>();
+    let slope = product(0, 1) / product(0, 0);
+    (slope > 0.0).then_some(slope)
+}
+
+/// The least distance above 0.
+fn least(partings: &[Parting]) -> f64 {
+    partings.iter().map(|p| p.rms).filter(|&rms| rms > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// The distance of two points.
+fn distance(a: Vec3, b: Vec3) -> f64 {
+    (a - b).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn partings(rms: impl Fn(f64) -> f64) -> Vec<Parting> {
+        (1..=90)
+            .map(|i| f64::from(i) / 90.0)
+            .map(|time| Parting { time, rms: rms(time), max: 2.0 * rms(time) })
+            .collect()
+    }
+
+    #[test]
+    fn the_growth_is_the_rate_before_a_micrometre() {
+        let partings = partings(|t| 1e-16 * math::exp(30.0 * t));
+        assert!((growth(&partings).unwrap() - 30.0).abs() < 1e-9);
+        assert_eq!(reached(&partings, 1e-6), Some(67.0 / 90.0));
+        assert_eq!(reached(&partings, 1e-2), None);
+    }
+
+    #[test]
+    fn what_does_not_grow_has_no_rate() {
+        assert_eq!(growth(&partings(|_| 1e-16)), None);
+        assert_eq!(growth(&partings(|_| 0.0)), None);
+    }
+}

@@ -1,0 +1,209 @@
+//! Contact with Coulomb friction (`sim.contact` = `coulomb`): the end of a step.
+//!
+//! The way of a point in the step, from `last` to `x`, is swept against every object. Where it first enters one, with
+//! the normal n, contact changes the rest of the way and the velocity v alike:
+//!
+//! - the normal part ends (restitution 0): the impulse per mass is `j = -v · n`, if that is above 0;
+//! - the tangential part is reduced by `μ j`, or ends if it is less: the point sticks.
+//!
+//! Then the rest of the way is swept again, up to [`MOST_CONTACTS`] times; a point that is caught between objects for
+//! longer ends its way there. At last `last` is put where the point would have been a step ago at its new velocity.
+//! So a point that is put back gains no speed from that, and under a constant load a sliding point gets
+//! `(g_t - μ g_n) dt` in every step, however long the step is.
+//!
+//! Both the way and the velocity are changed because they differ: the velocity at the end of a step is what the
+//! integrator says that it is. Each contact takes `m (|v|² - |v'|²) / 2`, which is never below 0 but for rounding.
+
+use super::Colliders;
+use super::contact::{Entry, Shape};
+use crate::cloth::grid::Pins;
+use crate::cloth::{Counters, Points, dot, filled, len};
+use crate::error::Result;
+use crate::scene::{ColliderKind, PerKind, Vec3};
+
+/// Most contacts of a point in one step.
+const MOST_CONTACTS: u32 = 16;
+
+/// The part of a way that leads into an object where the way only grazes it: what rounding makes of a way along the
+/// surface.
+const GRAZE: f64 = 1e-12;
+
+/// What contact did to the squares of the velocities in a step: the change of `|v dt|²`, in m², summed over the points.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Change {
+    /// By contact of the cloth with itself.
+    pub(crate) self_collision: f64,
+    /// By contact with the objects of each kind.
+    pub(crate) colliders: PerKind<f64>,
+}
+
+/// The motion of the points at the end of a step, which contact changes.
+#[derive(Clone, Debug)]
+pub(crate) struct Coulomb {
+    /// How far each point that was in contact in this step goes in a step at its velocity, in metres.
+    pub(crate) velocity: Points,
+    /// Whether each point was in contact in this step.
+    pub(crate) touched: Vec<bool>,
+    /// What contact did in this step.
+    pub(crate) change: Change,
+}
+
+impl Coulomb {
+    /// For a cloth of `points` points.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::Scene`] when it does not fit in memory.
+    pub(crate) fn new(points: usize) -> Result<Self> {
+        Ok(Self {
+            velocity: Points::zeros(points)?,
+            touched: filled(points, false)?,
+            change: Change::default(),
+        })
+    }
+
+    /// Begins a step.
+    pub(crate) fn begin(&mut self) {
+        self.touched.fill(false);
+        self.change = Change::default();
+    }
+
+    /// Notes that point `p` is in contact, and its velocity if it was not yet.
+    pub(super) fn touch(&mut self, p: usize, velocity: impl FnOnce() -> Vec3) {
+        if !self.touched[p] {
+            self.touched[p] = true;
+            self.velocity.set(p, velocity());
+        }
+    }
+
+    /// The sum of the squares of the velocities of a pair.
+    pub(super) fn square_of(&self, pair: [usize; 2]) -> f64 {
+        let [v, w] = pair.map(|p| self.velocity.get(p));
+        dot(v, v) + dot(w, w)
+    }
+
+    /// Contact of every unpinned point, on its way from `last` to `x`, with the objects. `velocity` is how far a point
+    /// goes in a step, of its number and both positions.
+    pub(crate) fn meet(
+        &mut self,
+        colliders: &Colliders,
+        x: &mut Points,
+        last: &Points,
+        pins: &Pins,
+        velocity: impl Fn(usize, Vec3, Vec3) -> Vec3,
+        counters: &mut Counters,
+    ) {
+        for p in pins.free.iter().cloned().flatten() {
+            let (end, start) = (x.get(p), last.get(p));
+            let motion = Motion { at: start, way: end - start, velocity: Vec3::zeros() };
+            let entry = first_entry(p, &motion, colliders);
+            if entry.is_none() && put_outside(p, end, colliders).is_none() {
+                continue;
+            }
+            self.touch(p, || velocity(p, end, start));
+            let motion = Motion { velocity: self.velocity.get(p), ..motion };
+            let motion = motion.meet(p, end, colliders, &mut self.change.colliders);
+            x.set(p, motion.at);
+            self.velocity.set(p, motion.velocity);
+            counters.object_moves += 1;
+        }
+        counters.object_tests += pins.free_points() * colliders.len() as u64;
+    }
+}
+
+/// The motion of a point.
+#[derive(Clone, Copy)]
+struct Motion {
+    at: Vec3,
+    /// What is left of its way in the step.
+    way: Vec3,
+    /// How far it goes in a step at its velocity.
+    velocity: Vec3,
+}
+
+impl Motion {
+    /// The end of the step of point `p`, which would end at `x` without contact.
+    fn meet(mut self, p: usize, x: Vec3, colliders: &Colliders, change: &mut PerKind<f64>) -> Self {
+        for contacts in 0..MOST_CONTACTS {
+            let Some((kind, shape, entry)) = first_entry(p, &self, colliders) else {
+                self.at = if contacts > 0 { self.at + self.way } else { x };
+                break;
+            };
+            let before = dot(self.velocity, self.velocity);
+            self.at = entry.point;
+            self.way = after_contact(self.way * (1.0 - entry.part), entry.normal, shape.friction());
+            self.velocity = after_contact(self.velocity, entry.normal, shape.friction());
+            change[kind] += dot(self.velocity, self.velocity) - before;
+        }
+        Self { at: put_outside(p, self.at, colliders).unwrap_or(self.at), ..self }
+    }
+}
+
+/// The object that point `p` enters first, and where.
+fn first_entry<'a>(
+    p: usize,
+    motion: &Motion,
+    colliders: &'a Colliders,
+) -> Option<(ColliderKind, &'a dyn Shape, Entry)> {
+    let mut first: Option<(ColliderKind, &dyn Shape, Entry)> = None;
+    for (kind, shape) in colliders.shapes() {
+        if let Some(entry) = shape.enter(p, motion.at, motion.way)
+            && -dot(motion.way, entry.normal) > GRAZE * len(motion.way)
+            && first.as_ref().is_none_or(|(_, _, other)| entry.part < other.part)
+        {
+            first = Some((kind, shape, entry));
+        }
+    }
+    first
+}
+
+/// What contact leaves of a velocity, or of a way, at a surface of the normal `n` and the friction `mu`.
+fn after_contact(v: Vec3, n: Vec3, mu: f64) -> Vec3 {
+    let impulse = -dot(v, n);
+    if impulse <= 0.0 {
+        return v;
+    }
+    let slide = v + n * impulse;
+    let (speed, brake) = (len(slide), mu * impulse);
+    if speed <= brake { Vec3::zeros() } else { slide * (1.0 - brake / speed) }
+}
+
+/// Where point `p` at `x` has to go to be outside of every object, as far as that can be; `None` if it is.
+fn put_outside(p: usize, x: Vec3, colliders: &Colliders) -> Option<Vec3> {
+    let mut outside = None;
+    for _ in 0..MOST_CONTACTS {
+        let before = outside;
+        for (_, shape) in colliders.shapes() {
+            outside = shape.depenetrate(p, outside.unwrap_or(x)).or(outside);
+        }
+        if outside == before {
+            break;
+        }
+    }
+    outside
+}
+
+/// Puts the unpinned points at `x` that are inside an object on its surface, at rest.
+pub(crate) fn start_outside(x: &mut Points, last: &mut Points, pins: &Pins, colliders: &Colliders) {
+    for p in pins.free.iter().cloned().flatten() {
+        if let Some(outside) = put_outside(p, x.get(p), colliders) {
+            x.set(p, outside);
+            last.set(p, outside);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contact_ends_the_approach_and_brakes_the_slide() {
+        let (n, v) = (Vec3::y(), Vec3::new(3.0, -2.0, 4.0));
+        assert_eq!(after_contact(v, n, 0.0), Vec3::new(3.0, 0.0, 4.0), "smooth");
+        assert_eq!(after_contact(v, n, 0.5), Vec3::new(2.4, 0.0, 3.2), "5 m/s less 0.5 times 2 m/s");
+        assert_eq!(after_contact(v, n, 2.5), Vec3::zeros(), "at the edge of the cone");
+        assert_eq!(after_contact(v, n, 1e15), Vec3::zeros());
+        assert_eq!(after_contact(-v, n, 1.0), -v, "on its way out");
+        assert_eq!(after_contact(Vec3::zeros(), n, 0.0), Vec3::zeros());
+    }
+}
