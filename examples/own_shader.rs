@@ -1,4 +1,4 @@
-//! A shader of your own: a toon look, which no scene file has, on a cloth that has fallen on a ball.
+//! A shader of your own: a toon look on a cloth that has fallen on a ball.
 //!
 //! `cargo run --release --example own_shader -- toon.png` draws it. Two programs are all there is to a shader. One
 //! that scene files should have goes into the engine instead: `src/shader/` has a pair of files for each, and

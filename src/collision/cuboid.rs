@@ -172,8 +172,12 @@ mod tests {
         assert_eq!(entry([0.0, 0.5, 0.0], [0.5, 0.6, 0.0]), None, "away from the top");
         let top = entry([0.0, 0.5, 0.0], [0.5, 0.4, 0.0]);
         assert_eq!(top, Some((0.0, [0.0, 0.5, 0.0], [0.0, 1.0, 0.0])), "into the top");
-        // Over the edge at x = 1: past the top face the way meets the side face, or none.
-        assert_eq!(entry([2.0, 1.0, 0.0], [0.0, 0.0, 0.0]).unwrap().2, [0.0, 1.0, 0.0], "at the edge");
+        // Over the edge at x = 1: the way enters through the face that it meets last.
+        assert_eq!(
+            entry([2.0, 1.0, 0.0], [0.0, 0.0, 0.0]).unwrap().2,
+            [1.0, 0.0, 0.0],
+            "of two at once the first axis"
+        );
         assert_eq!(entry([2.0, 0.9, 0.0], [0.0, -0.1, 0.0]).unwrap().2, [1.0, 0.0, 0.0]);
         assert_eq!(entry([2.0, 1.2, 0.0], [0.0, 0.2, 0.0]).unwrap().2, [0.0, 1.0, 0.0]);
     }

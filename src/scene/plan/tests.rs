@@ -31,6 +31,7 @@ bending springs: needed: cloth.enable_bending is true
 self-collision: needed: cloth.thickness is 0.01 m
 collision with planes: left out: the scene has no plane
 collision with spheres: needed: the scene has 2 spheres
+collision with boxes: left out: the scene has no box
 stretch limit: needed: sim.stretch_limit is 0.1
 cloth normals: needed: read by the phong shader
 cloth tangents: left out: not read by the phong shader
