@@ -54,11 +54,13 @@ fn every_command_goes_on_from_a_state() {
         ["simulate", "small.json", "--until-rest", "--set", "cloth.damping=5", "--save-state", "r", "--json"];
     let rest = |more: &[&str]| scratch.json(&[&rest[..], more].concat());
     let whole = rest(&[]);
-    // One frame before: what the frame before that did is known.
-    let last = (whole["frames"].as_u64().unwrap() - 1).to_string();
+    // What was quiet before the state is not known: the cloth must be quiet for half a second from there on.
+    let frames = whole["frames"].as_u64().unwrap();
     let damped = ["--set", "cloth.damping=5", "--save-state", "m"];
+    let last = (frames - 1).to_string();
     scratch.succeed(&[&["simulate", "small.json", "--frames", &last], &damped[..]].concat());
-    assert_eq!(rest(&["--from-state", "m"]), whole, "comes to rest at the same frame");
+    let rested = rest(&["--from-state", "m"])["frames"].as_u64().unwrap();
+    assert!((frames..frames + 45).contains(&rested), "{frames}, and from a state {rested}");
 }
 
 #[test]

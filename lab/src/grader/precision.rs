@@ -31,7 +31,10 @@ impl Precision {
         let digits = fewest(numbers(), |digits, x| format!("{x:.*e}", digits.saturating_sub(1)));
         let decimals = fewest(numbers(), |decimals, x| format!("{x:.decimals$}"));
         #[expect(clippy::cast_possible_truncation, reason = "what binary32 makes of it is the question")]
-        let is_single = |x: f64| format!("{x:.8e}") == format!("{:.8e}", f64::from(x as f32));
+        let is_single = |x: f64| {
+            let single = x as f32;
+            single.to_string().parse() == Ok(x) || format!("{x:.8e}") == format!("{:.8e}", f64::from(single))
+        };
         // Few digits fit any number of binary32, too.
         let single = digits.is_none_or(|digits| digits >= 8) && numbers().all(is_single);
         Self { digits, decimals, single }

@@ -179,8 +179,8 @@ impl Tally {
         }
     }
 
-    /// What breaks the limits: nothing, if the pictures agree.
-    pub(crate) fn faults(&self) -> Vec<String> {
+    /// What breaks the limits: nothing, if the pictures agree. Of the pixels the part `one_level` may be one level apart.
+    pub(crate) fn faults(&self, one_level: f64) -> Vec<String> {
         let mut faults = self.examples.clone();
         let mut limit = |what: &str, is: f64, most: f64| {
             if is > most {
