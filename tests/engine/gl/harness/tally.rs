@@ -179,7 +179,8 @@ impl Tally {
         }
     }
 
-    /// What breaks the limits: nothing, if the pictures agree. Of the pixels the part `one_level` may be one level apart.
+    /// What breaks the limits: nothing, if the pictures agree. A part `one_level` of the pixels may
+    /// be one level apart where the usual limit is lower.
     pub(crate) fn faults(&self, one_level: f64) -> Vec<String> {
         let mut faults = self.examples.clone();
         let mut limit = |what: &str, is: f64, most: f64| {
@@ -195,7 +196,11 @@ impl Tally {
         limit("pixels more than one level apart", self.levels[2] as f64, 0.0);
         let [own, driver] = self.rounded;
         let identical = if own < driver { NEARER } else { IDENTICAL };
-        limit("pixels one level apart", self.levels[1] as f64, part(self.same, 1.0 - identical));
+        limit(
+            "pixels one level apart",
+            self.levels[1] as f64,
+            part(self.same, (1.0 - identical).max(one_level)),
+        );
         limit("pixels that rounding changed", own as f64, part(self.same, 1.0 - IDENTICAL));
         limit("units of depth", self.depth_error, DEPTH_ERROR);
         limit("empty pictures", f64::from(u8::from(self.same == 0)), 0.0);
