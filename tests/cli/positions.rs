@@ -100,7 +100,7 @@ fn mistakes_that_no_scene_can_express_are_named() {
         (HANGING, 8, Fault::KeptForces, "forces that are not set to 0"),
         (&thick, 8, Fault::PushBoth, "pushes both points of each pair by the whole distance"),
         (&close, 4, Fault::WholePush, "not divided by the steps of a frame"),
-        (&loose, 8, Fault::UnnormalisedLimit, "a stretch limit along the vector"),
+        (&loose, 16, Fault::UnnormalisedLimit, "a stretch limit along the vector"),
     ] {
         let report = compared(text, raw(&faulty(text, fault, frames)), &[], 1);
         let verdict = report["verdict"].as_str().expect("a verdict");
