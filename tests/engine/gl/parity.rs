@@ -129,12 +129,12 @@ impl Case {
         scene(self.scene, sets)
     }
 
-    /// The part of the pixels that may be one level apart where that is more than usual: across the seams of a cube map
-    /// 1.3 in 1000 are.
+    /// The part of the pixels that may be one level apart where that is more than usual. With the seams of the cube map
+    /// blended 3.8 in 1000 are: the driver's rounding of the reflected direction changes 383 pixels, ours 28.
     fn one_level(&self) -> f64 {
         let seams =
             self.shader == Shader::Mirror && self.sets.iter().any(|set| set == "render.seamless=true");
-        if seams { 0.002 } else { 0.0 }
+        if seams { 0.005 } else { 0.0 }
     }
 
     fn compare(&self, device: &mut Device<'_>, points: &Points) -> Tally {
