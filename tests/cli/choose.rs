@@ -63,3 +63,35 @@ fn the_horizon_is_told_and_drawn() {
     assert!(text.contains("1e-6 m apart not by the end"), "{text}");
     assert_eq!(scratch.run(&["horizon", "small.json", "--frame", "0"]).code, Some(4));
 }
+
+#[test]
+fn the_summary_says_what_was_run_and_how_wrong_it_is() {
+    let scratch = Scratch::new();
+    let arguments = ["simulate", "small.json", "--frames", "10", "--error"];
+    let text = String::from_utf8(scratch.succeed(&arguments)).unwrap();
+    let line = |name: &str| {
+        let lines: Vec<&str> = text.lines().filter(|line| line.split(' ').next() == Some(name)).collect();
+        assert_eq!(lines.len(), 1, "{name}: {text}");
+        lines[0].to_owned()
+    };
+    assert!(line("settings").contains("verlet, 30 steps in each of 90 frames a second, f64; start report"));
+    assert!(line("heights").contains("sagged by"), "{text}");
+    assert!(line("longest").contains("of its rest length") && line("rest").ends_with("not yet"), "{text}");
+    assert!(line("error").contains("a run of 60 steps a frame"), "{text}");
+    let summary = scratch.json(&[&arguments[..], &["--json"]].concat());
+    assert_eq!(summary["settings"]["steps_per_frame"], 30);
+    assert_eq!(summary["at_rest"], false);
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let heights = &summary["heights"];
+    assert!(
+        number(&heights["lowest"]) <= number(&heights["mean"])
+            && number(&heights["mean"]) <= number(&heights["highest"])
+    );
+    assert!(number(&heights["sag"]) > 0.0 && number(&summary["largest_stretch"]) > 1.0);
+    let error = &summary["error"];
+    assert!(number(&error["max"]) >= number(&error["rms"]) && number(&error["rms"]) > 0.0);
+    // The estimate changes nothing of the run, and without it there is none.
+    let plain = scratch.json(&["simulate", "small.json", "--frames", "10", "--json"]);
+    assert_eq!(plain["state_hash"], summary["state_hash"]);
+    assert!(plain["error"].is_null());
+}

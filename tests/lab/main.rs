@@ -11,6 +11,7 @@ mod findings;
 mod horizon;
 #[path = "../support/repository.rs"]
 mod repository;
+mod samples;
 mod stability_map;
 mod study;
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use drape::error::{Error, Kind, Result};
-use drape::scene::{Integrator, Overrides};
+use drape::scene::{Integrator, Overrides, SelfCollision};
 use drape::texture_source::TextureSource;
 use drape_lab::page::live::Live;
 use drape_lab::store::Store;
@@ -215,6 +215,30 @@ fn runs_can_be_picked_by_their_names() {
     );
     assert!(page.contains("at 0.1, 0.2 s, without stretch limit and self-collision"), "{page}");
     assert!(page.contains("the scene's cloth: 150 kg/m², stable at worst from 600 steps/s"), "{page}");
+}
+
+#[test]
+fn a_study_may_be_longer_and_keep_what_has_no_limit() {
+    let moments = |extent: Extent, tenth: u32| extent.up_to(tenth).tenths;
+    assert_eq!(moments(Extent::full(), 10), [2, 4, 10]);
+    assert_eq!(moments(Extent::quick(), 1), [1]);
+    let folder = tempfile::tempdir().unwrap();
+    let source = source(folder.path());
+    let only = vec!["Verlet, half-step start".to_owned()];
+    let extent = Extent { only, kept: vec!["stretch_limit"], repeats: 1, ..extent() };
+    let (study, _) = run(&source, &extent, folder.path());
+    let sim = &study.panels[0].panel.cells[0].scene.sim;
+    assert_eq!((sim.stretch_limit, sim.self_collision), (Some(0.1), SelfCollision::Off));
+    let page = study::page(&study, "scene.json", None).unwrap();
+    assert!(
+        page.contains("the model keeps sim.stretch_limit") && page.contains("without self-collision"),
+        "{page}"
+    );
+    let results = Results::new(&study, "scene.json", [0, 0]);
+    assert!(results.text().starts_with("the model keeps sim.stretch_limit"), "{}", results.text());
+    let json = serde_json::to_value(&results).unwrap();
+    assert_eq!(json["without_limit"], serde_json::json!(["stretch_limit"]));
+    assert!(!json["model"].to_string().contains("stretch_limit"), "{}", json["model"]);
 }
 
 /// By any part of a name, however it is written, and by the integrator as a scene has it.

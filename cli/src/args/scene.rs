@@ -129,7 +129,11 @@ impl Moment {
     /// The last frame, and whether the cloth must come to rest by then.
     pub(crate) fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));
-        Until { frames: self.frame.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
+        Until {
+            frames: self.frame.unwrap_or_else(|| frame_at(time, scene)),
+            rest: self.until_rest,
+            watched: false,
+        }
     }
 }
 

@@ -9,19 +9,20 @@ use super::positions::PositionsArgs;
 use crate::args::flag::seconds;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
-use crate::run::advance::{Rest, Until, advance_until};
+use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
+use crate::run::summary::{Seen, Summary, hex};
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
-use drape::cloth::{Counters, springs};
-use drape::diagnostics::energy::Energy;
-use drape::diagnostics::ledger::Ledger;
+use drape::cloth::springs;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
+use drape_lab::choose::{OwnError, own_error};
 use drape_lab::run::table::Table;
+use drape_lab::study::source::Source;
 
 /// The arguments of `simulate`.
 #[derive(clap::Args)]
@@ -48,6 +49,9 @@ pub(crate) struct Args {
     /// Add to the summary the energy that each phase added or removed; a step takes two to four times as long
     #[arg(long, conflicts_with_all = ["bench", "hash"])]
     ledger: bool,
+    /// Add to the summary how wrong the positions are, estimated from one more run with twice the steps
+    #[arg(long, conflicts_with_all = ["bench", "hash", "from_state", "allow_unstable"])]
+    error: bool,
     /// Print the number and the state hash of each frame instead of the summary
     #[arg(long)]
     hash: bool,
@@ -58,75 +62,6 @@ pub(crate) struct Args {
     state: StateArgs,
     #[command(flatten)]
     stability: StabilityArgs,
-}
-
-/// The summary.
-#[derive(Serialize)]
-struct Summary {
-    frames: u64,
-    time: f64,
-    points: usize,
-    springs: usize,
-    state_hash: String,
-    counters: Counters,
-    /// The energies at the end, in J.
-    energy: Energy,
-    /// The energy that each phase added over the run, in J, if a ledger was recorded.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    ledger: Option<Ledger>,
-    /// What the stretch limit left, if the scene has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    stretch: Option<Stretch>,
-    /// The figures of the rest, if it was asked for and reached.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rest: Option<Rest>,
-    /// The state hash of each frame from 0, if asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    hashes: Vec<String>,
-}
-
-/// What the stretch limit left at the end.
-#[derive(Clone, Copy, Serialize)]
-struct Stretch {
-    /// Largest length of a spring over its rest length.
-    largest: f64,
-    /// The same at the limit.
-    limit: f64,
-    /// Springs that the limit shortened in each step of the last frame.
-    shortened_per_step: f64,
-}
-
-impl Stretch {
-    /// Of a scene with a stretch limit, which shortened so many springs in the last frame.
-    fn of(simulation: &Simulation, scene: &Scene, limited: u64) -> Option<Self> {
-        let limit = 1.0 + scene.needed_stretch_limit()?;
-        #[expect(clippy::cast_precision_loss, reason = "a number of springs is far below 2^53")]
-        let shortened_per_step = limited as f64 / f64::from(scene.sim.steps_per_frame);
-        Some(Self { largest: simulation.largest_stretch(), limit, shortened_per_step })
-    }
-
-    /// Lines of the summary: nothing where the limit holds and has nothing to do.
-    fn text(&self) -> String {
-        let Self { largest, limit, shortened_per_step } = *self;
-        let beyond = if largest > limit + 1e-3 {
-            format!(
-                "stretch      {:.1} % at most: the limit of {:.1} % did not hold; more sim.stretch_passes or steps do\n",
-                100.0 * (largest - 1.0),
-                100.0 * (limit - 1.0)
-            )
-        } else {
-            String::new()
-        };
-        let carried = if shortened_per_step >= 1.0 {
-            format!(
-                "stretch      {shortened_per_step:.1} springs a step were at the limit at the end: there the sag is the \
-                 limit's, not ks's\n"
-            )
-        } else {
-            String::new()
-        };
-        beyond + &carried
-    }
 }
 
 /// The times of the simulation.
@@ -157,6 +92,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let mut saving = args.state.saving(&scene);
     let mut hashes = Vec::new();
     let (mut before, mut limited) = (0, 0);
+    let heights = simulation.positions().y.clone();
     let ended = advance_until(&mut simulation, &scene, until, session, |now| {
         let all = now.counters().springs_limited;
         (limited, before) = (all - before, all);
@@ -173,8 +109,9 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if args.bench {
         session.print_json(&bench(&simulation, springs, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
-        let stretch = Stretch::of(&simulation, &scene, limited);
-        let summary = summary(&simulation, springs, hashes, ended.rest, stretch);
+        let error = args.error(&scene, &simulation, session)?;
+        let seen = Seen { rest: ended.rest, hashes, heights, limited, error };
+        let summary = Summary::new(&simulation, &scene, seen);
         session.print(&summary, &summary.text())?;
     }
     ended.result()
@@ -183,7 +120,17 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 impl Args {
     fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));
-        Until { frames: self.frames.unwrap_or_else(|| frame_at(time, scene)), rest: self.until_rest }
+        let frames = self.frames.unwrap_or_else(|| frame_at(time, scene));
+        Until { frames, rest: self.until_rest, watched: !self.bench }
+    }
+
+    /// How wrong the positions are, if that was asked for.
+    fn error(&self, scene: &Scene, now: &Simulation, session: &Session) -> Result<Option<OwnError>> {
+        if !self.error {
+            return Ok(None);
+        }
+        let source = Source { path: self.scene.path.clone(), overrides: self.scene.overrides() };
+        own_error(&source, scene, now, &|| session.signals.check()).map(Some)
     }
 
     fn check_outputs(&self, session: &Session) -> Result<()> {
@@ -227,51 +174,6 @@ impl Args {
     }
 }
 
-fn summary(
-    simulation: &Simulation,
-    springs: usize,
-    hashes: Vec<String>,
-    rest: Option<Rest>,
-    stretch: Option<Stretch>,
-) -> Summary {
-    Summary {
-        frames: simulation.frame(),
-        time: simulation.time(),
-        points: simulation.positions().len(),
-        springs,
-        state_hash: hex(simulation.state_hash()),
-        counters: simulation.counters(),
-        energy: simulation.energy(),
-        ledger: simulation.ledger(),
-        stretch,
-        rest,
-        hashes,
-    }
-}
-
-impl Summary {
-    fn text(&self) -> String {
-        let Self { frames, time, points, springs, state_hash, counters, energy, .. } = self;
-        let Energy { kinetic, spring, gravitational } = energy;
-        let entries = self.ledger.map(Ledger::entries).into_iter().flatten();
-        let ledger: String =
-            entries.map(|(name, joule)| format!("  by {name:15} {joule:+.6e} J\n")).collect();
-        let stretch = self.stretch.map_or_else(String::new, |stretch| stretch.text());
-        let rest = self.rest.map_or_else(String::new, |rest| rest.text());
-        format!(
-            "frames       {frames}\nsteps        {}\ntime         {time} s\npoints       {points}\n\
-             springs      {springs}\ncollisions   {} with objects, {} of the cloth with itself\n\
-             shortened    {} springs\nenergy       {:.6e} J = kinetic {kinetic:.6e}, spring {spring:.6e}, \
-             gravitational {gravitational:.6e}\n{ledger}{stretch}{rest}state hash   {state_hash}\n",
-            counters.steps,
-            counters.object_moves,
-            counters.self_collision_moves,
-            counters.springs_limited,
-            energy.total(),
-        )
-    }
-}
-
 fn bench(simulation: &Simulation, springs: usize, elapsed: Duration) -> Bench {
     let substeps = simulation.steps();
     Bench {
@@ -283,8 +185,4 @@ fn bench(simulation: &Simulation, springs: usize, elapsed: Duration) -> Bench {
         threads: rayon::current_num_threads(),
         stages: simulation.timings().unwrap_or_default(),
     }
-}
-
-fn hex(hash: u64) -> String {
-    format!("{hash:016x}")
 }

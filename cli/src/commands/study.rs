@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::args::flag::seconds;
 use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
 use crate::session::files::atomic;
@@ -12,9 +13,12 @@ use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
 use drape_lab::store::Store;
-use drape_lab::study::extent::Extent;
+use drape_lab::study::extent::{Extent, KEPT};
 use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
+
+/// The latest moment of a study, in tenths of a second.
+const MOST_TENTHS: f64 = 600.0;
 
 /// The arguments of `study`.
 #[derive(clap::Args)]
@@ -28,6 +32,13 @@ pub(crate) struct Args {
     /// Fewer runs, in under two minutes for a cloth of 50 x 50 points
     #[arg(long)]
     quick: bool,
+    /// Compare at moments up to this one, in tenths of a second, instead of up to 0.5 s (--quick: 0.2 s)
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    time: Option<f64>,
+    /// Keep this option of the scene in the model that all methods approach, although it may have no limit as the
+    /// step shrinks; repeatable
+    #[arg(long, value_name = "KEY", value_parser = clap::builder::PossibleValuesParser::new(KEPT))]
+    keep: Vec<String>,
     /// Only the runs whose name contains this text in upper or lower case, or that have this integrator, such as
     /// `bdf2`, `BDF2 at 600 steps/s` or `k/m 8.33e4`; repeatable. No pictures are drawn
     #[arg(long, value_name = "TEXT")]
@@ -49,7 +60,9 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.scene.load(session)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
     let extent = if args.quick { Extent::quick() } else { Extent::full() };
-    let extent = Extent { only: args.only.clone(), part: args.part.and_then(Part::of), ..extent };
+    let extent = args.time.map_or_else(|| Ok(extent.clone()), |time| up_to(extent.clone(), time))?;
+    let kept = KEPT.into_iter().filter(|key| args.keep.iter().any(|keep| keep == key)).collect();
+    let extent = Extent { only: args.only.clone(), part: args.part.and_then(Part::of), kept, ..extent };
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let folder = args.folder()?;
     let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
@@ -81,6 +94,20 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     atomic::write(&page, study::page(&study, &name, live.as_ref())?.as_bytes())?;
     session.ui.note(&format!("{}: page written", page.display()));
     session.print(&results, &results.text())
+}
+
+/// The same study up to `time` seconds.
+fn up_to(extent: Extent, time: f64) -> Result<Extent> {
+    let tenths = (10.0 * time).round();
+    if !(1.0..=MOST_TENTHS).contains(&tenths) {
+        let error = Error::new(
+            Kind::Usage,
+            format!("--time {time}: a study takes from 0.1 s to {} s", MOST_TENTHS / 10.0),
+        );
+        return Err(error.with_help("`drape choose` answers for a single moment, however late"));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 600")]
+    Ok(extent.up_to(tenths as u32))
 }
 
 impl Args {

@@ -19,13 +19,15 @@ pub(crate) struct Until {
     pub(crate) frames: u64,
     /// Whether it ends as soon as the cloth is at rest, which must be by the last frame.
     pub(crate) rest: bool,
+    /// Whether it is watched for rest although it does not end there.
+    pub(crate) watched: bool,
 }
 
 /// A simulation that has ended.
 pub(crate) struct Ended {
     /// The wall time.
     pub(crate) elapsed: Duration,
-    /// The figures of a cloth that came to rest, if that was asked for.
+    /// The figures of a cloth that is at rest, if it was watched.
     pub(crate) rest: Option<Rest>,
     /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not. The command still
     /// writes its results and returns this error last.
@@ -74,7 +76,7 @@ pub(crate) fn advance_until(
     session: &Session,
     mut each: impl FnMut(&Simulation) -> Result<()>,
 ) -> Result<Ended> {
-    let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest) else {
+    let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest || until.watched) else {
         let last = if until.rest { 0 } else { until.frames };
         let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
         return Ok(Ended { elapsed, rest: None, unsettled: None });
@@ -91,11 +93,11 @@ pub(crate) fn advance_until(
         if simulation.frame() > first {
             motion = Some(watch.look(simulation.positions()));
         }
-        Ok(!watch.is_rest())
+        Ok(!(until.rest && watch.is_rest()))
     })?;
     let limit = watch.limit();
     let rest = watch.is_rest().then(|| Rest { quiet: QUIET, motion: watch.most(), limit });
-    let unsettled = rest.is_none().then(|| no_rest(simulation, motion, limit));
+    let unsettled = (until.rest && rest.is_none()).then(|| no_rest(simulation, motion, limit));
     Ok(Ended { elapsed, rest, unsettled })
 }
 

@@ -3,4 +3,5 @@
 
 pub(crate) mod start;
 pub(crate) mod advance;
+pub(crate) mod summary;
 pub(crate) mod bench;

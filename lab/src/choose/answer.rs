@@ -90,9 +90,8 @@ impl Choice {
 
 impl Candidate {
     pub(super) fn of(integrator: Integrator, steps: u32, springs: u64) -> Self {
-        let named = Integrator::NAMES.iter().find(|row| row.1 == integrator);
         Self {
-            integrator: named.map_or("", |row| row.0),
+            integrator: integrator.name(),
             steps_per_frame: steps,
             error: None,
             uncertainty: None,

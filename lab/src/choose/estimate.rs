@@ -9,7 +9,9 @@
 //!
 //! Where they are not parallel, or the order is not between [`LOWEST`] and [`HIGHEST`], no order is seen and
 //! nothing is extrapolated: the limit is taken to be the last run, uncertain by [`DOUBT`] times the larger of
-//! the last difference and half of the one before it, which a method of first order would show.
+//! the last difference and half of the one before it, which a method of first order would show. Where the lengths of the
+//! last three differences fall steadily, each to [`STEADY`] of the one before or less, the uncertainty is [`LESS_DOUBT`]
+//! times that: what is left of such a series is at most 1.5 times its last term.
 
 use super::goal::{Measure, Shape, difference};
 use drape::math;
@@ -27,6 +29,12 @@ const SMOOTH: f64 = 0.1;
 
 /// Uncertainty over difference, where no order is seen.
 const DOUBT: f64 = 3.0;
+
+/// The same where the differences fall steadily.
+const LESS_DOUBT: f64 = 2.0;
+
+/// The most that a difference is of the one before it where they fall steadily.
+const STEADY: f64 = 0.6;
 
 /// What the last runs of a ladder say of the limit.
 #[derive(Clone, Debug)]
@@ -55,7 +63,10 @@ impl Limit {
         let confirmed = earlier.is_none_or(|[a, b, c]| order(&difference(a, b), &difference(b, c)).is_some());
         let Some(order) = order(&first, &second).filter(|_| confirmed) else {
             let [first, second] = [&first, &second].map(|d| measure.size(d));
-            let uncertainty = DOUBT * second.max(0.5 * first);
+            let before = states.iter().rev().nth(3).map(|x0| measure.distance(x0, x1));
+            let is_steady = before.is_some_and(|before| first <= STEADY * before && second <= STEADY * first);
+            let doubt = if is_steady { LESS_DOUBT } else { DOUBT };
+            let uncertainty = doubt * second.max(0.5 * first);
             return Some(Self { order: None, shape: x3.clone(), measure, uncertainty });
         };
         let ratio = math::pow(2.0, order);
@@ -132,5 +143,18 @@ mod tests {
         assert_eq!(limit.order, None, "differences that are not parallel");
         let [first, second] = [1, 2].map(|i| Measure::Max.distance(&runs[i], &runs[i + 1]));
         assert_eq!(limit.uncertainty, 3.0 * second.max(0.5 * first));
+    }
+
+    #[test]
+    fn differences_that_fall_steadily_leave_less_doubt() {
+        // Each difference is half as long as the one before, and at a right angle to it.
+        let runs = [[0.0, 0.0], [8.0, 0.0], [8.0, 4.0], [10.0, 4.0]].map(|[x, y]| vec![[x, y, 0.0]]);
+        let of = |runs: &[Shape]| limit(runs, false, Measure::Max).unwrap();
+        assert_eq!((of(&runs).order, of(&runs).uncertainty), (None, 4.0));
+        assert_eq!(
+            (of(&runs[1..]).order, of(&runs[1..]).uncertainty),
+            (None, 6.0),
+            "three runs show no series"
+        );
     }
 }

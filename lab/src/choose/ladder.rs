@@ -132,7 +132,9 @@ impl Ladder {
     pub(super) fn run(&self, runner: &Runner<'_>, steps: u32) -> Result<Level> {
         let Outcome::Done(level) = runner.run(&self.settings(steps))? else {
             let message = format!("the cloth blows up at {steps} steps a frame, which its springs allow");
-            return Err(Error::new(Kind::Unstable, message).with_help("`drape simulate` says where it does"));
+            return Err(Error::new(Kind::Unstable, message).with_help(
+                "`drape simulate` says where; what contact adds, no step cures, but `sim.contact` = `coulomb` adds nothing",
+            ));
         };
         Ok(level)
     }

@@ -55,8 +55,7 @@ pub(super) enum Outcome {
 impl Settings {
     /// All changes, as `--set` takes them.
     pub(super) fn sets(&self) -> Vec<String> {
-        let named = Integrator::NAMES.iter().find(|(_, integrator)| *integrator == self.integrator);
-        let name = named.map_or("", |(name, _)| name);
+        let name = self.integrator.name();
         let mut sets = vec![format!("sim.integrator={name}"), format!("sim.steps_per_frame={}", self.steps)];
         sets.extend_from_slice(&self.sets);
         sets
@@ -71,7 +70,12 @@ impl Runner<'_> {
 
     /// Runs the scene as it is written.
     pub(super) fn run_as_written(&self, scene: &Scene) -> Result<Outcome> {
-        self.run_while(&[], scene.sim.steps_per_frame, &|_, _| true)
+        self.run_with(&[], scene.sim.steps_per_frame)
+    }
+
+    /// Runs the scene with the changes `sets`, which make it `steps` steps a frame.
+    pub(super) fn run_with(&self, sets: &[String], steps: u32) -> Result<Outcome> {
+        self.run_while(sets, steps, &|_, _| true)
     }
 
     /// Runs the scene with `settings` until more than `most` springs were visited.

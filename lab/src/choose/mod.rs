@@ -15,21 +15,23 @@ mod others;
 mod answer;
 mod reason;
 mod budget;
+mod own_error;
 
 use rayon::prelude::*;
 
-use crate::horizon::Horizon;
+use crate::horizon::{Horizon, Parting};
 use crate::study::source::Source;
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Scene};
 use estimate::Limit;
-use goal::Tolerance;
+use goal::{Measure, Tolerance};
 use ladder::Ladder;
 use level::{Level, Outcome, Runner, Settings};
 use others::{Trial, trials};
 
 pub use answer::{Answer, Candidate, Choice, Model};
 pub use budget::within_budget;
+pub use own_error::{OwnError, own_error};
 
 /// The integrators that are tried beside Verlet's scheme.
 fn other_integrators() -> impl ParallelIterator<Item = Integrator> {
@@ -69,6 +71,9 @@ pub fn within(
         }
     }
     let horizon = Horizon::of(source, &ladder.settings(ladder.levels[0].steps).sets(), frames, watch)?;
+    if is_beyond(&horizon.partings, tolerance) {
+        return reason::none(&runner, &scene, &ladder, tolerance);
+    }
     let (settings, level) = best;
     Ok(Answer {
         choice: Some(Choice::new(&settings, &level, [ladder.error(&level, &limit), limit.uncertainty])),
@@ -77,6 +82,15 @@ pub fn within(
         model: model(&runner, &scene, &ladder, &limit)?,
         reason: None,
         measure: tolerance.measure,
+    })
+}
+
+/// Whether copies that differ by rounding are farther apart at the moment than is allowed. In pixels nobody knows.
+fn is_beyond(partings: &[Parting], Tolerance { value, measure }: Tolerance) -> bool {
+    partings.last().is_some_and(|last| match measure {
+        Measure::Rms => last.rms > value,
+        Measure::Max => last.max > value,
+        Measure::Pixels => false,
     })
 }
 
@@ -158,4 +172,21 @@ fn model(runner: &Runner<'_>, scene: &Scene, ladder: &Ladder, limit: &Limit) -> 
         }
     }
     Ok(model)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_counts_is_how_far_copies_are_apart_at_the_moment() {
+        let parting = |rms: f64| Parting { time: 0.1, rms, max: 10.0 * rms };
+        let beyond = |rms: &[f64], measure: Measure| {
+            let partings: Vec<Parting> = rms.iter().map(|&rms| parting(rms)).collect();
+            is_beyond(&partings, Tolerance { value: 1e-3, measure })
+        };
+        assert!(beyond(&[1e-9, 2e-3], Measure::Rms) && !beyond(&[2e-3, 1e-9], Measure::Rms));
+        assert!(beyond(&[2e-4], Measure::Max) && !beyond(&[2e-4], Measure::Rms));
+        assert!(!beyond(&[1.0], Measure::Pixels) && !beyond(&[], Measure::Max));
+    }
 }

@@ -57,9 +57,12 @@ fn affordable(level: &Level, work: f64) -> u32 {
     steps
 }
 
-/// One step a frame of `integrator`, with those of the `cures` that it reads.
+/// One step a frame of `integrator`, with those of the `cures` that it reads. The start is one of Verlet's scheme:
+/// with the others a scene must leave it out or say `report`, so this undoes what the scene may say.
 pub(super) fn settings(integrator: Integrator, cures: &[String]) -> Settings {
-    let sets = cures.iter().filter(|cure| !cure.starts_with("sim.start=")).cloned().collect();
+    let of_verlet = |cure: &&String| !cure.starts_with("sim.start=");
+    let mut sets: Vec<String> = cures.iter().filter(of_verlet).cloned().collect();
+    sets.push("sim.start=report".to_owned());
     Settings { integrator, steps: 1, sets }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn metres(tolerance: Tolerance) -> Option<f64> {
     (tolerance.measure != Measure::Pixels).then_some(tolerance.value)
 }
 
-/// The answer where the ladder found no limit: whether copies that differ by rounding have parted, or which settings
+/// The answer where the ladder found no limit, or one that rounding decides: whether copies that differ by rounding have parted, or which settings
 /// of the scene have no limit, and what can be promised nevertheless.
 pub(super) fn none(
     runner: &Runner<'_>,
@@ -35,11 +35,14 @@ pub(super) fn none(
         [.., a, b] => tolerance.measure.distance(&a.shape, &b.shape),
         _ => f64::NAN,
     };
-    let floor = format!(
+    let agreed =
+        format!("the runs agree to {floor:.2e} {unit} ({}), but by chance", tolerance.measure.words());
+    let moved = format!(
         "halving the step still moves the points by {floor:.2e} {unit} ({}) and that does not shrink, so the limit is not \
          known to the {asked:e} {unit} that were asked for",
         tolerance.measure.words()
     );
+    let floor = if ladder.limit.is_some() { agreed } else { moved };
     let cause = if metres(tolerance).is_none_or(|asked| parted > HORIZON * asked)
         && parted > 1e6 * horizon.rounding
     {

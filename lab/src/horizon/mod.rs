@@ -21,6 +21,12 @@ pub use page::page;
 /// Distances that are looked for, in metres, with their names.
 pub const DISTANCES: [(f64, &str); 3] = [(1e-6, "1 um"), (1e-3, "1 mm"), (1e-2, "1 cm")];
 
+/// Distances of more than this times the rounding have grown by more than adding up.
+const GROWN: f64 = 1e4;
+
+/// Fewest frames from which a growth rate is told.
+const FEWEST: usize = 3;
+
 /// How far copies have parted at the end of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Parting {
@@ -42,7 +48,7 @@ pub struct Horizon {
     /// The first time at which a point has parted by each of [`DISTANCES`], in seconds.
     pub times: Vec<Reached>,
     /// How fast the root mean square distance grows before it reaches the first of [`DISTANCES`], in 1/s: by the
-    /// factor e in the inverse of it. `None` if it does not grow in five frames or more.
+    /// factor e in the inverse of it. `None` if it stays near the rounding, or passes both within two frames.
     pub growth: Option<f64>,
     /// The lowest and highest of the copies at the end.
     pub spread: Spread,
@@ -102,7 +108,7 @@ impl Horizon {
             times: DISTANCES
                 .map(|(distance, _)| Reached { distance, time: reached(&partings, distance) })
                 .to_vec(),
-            growth: growth(&partings),
+            growth: growth(&partings, copies.rounding),
             spread: copies.spread(),
             map: copies.map(),
             size,
@@ -120,15 +126,16 @@ fn reached(partings: &[Parting], distance: f64) -> Option<f64> {
     partings.iter().find(|parting| parting.max >= distance).map(|parting| parting.time)
 }
 
-/// The slope of a line through the logarithms of the distances, by least squares, from the last minimum before
-/// the first of [`DISTANCES`] on.
-fn growth(partings: &[Parting]) -> Option<f64> {
+/// The slope of a line through the logarithms of the distances, by least squares, from the last frame at which they are
+/// at most [`GROWN`] times `rounding` to the first of [`DISTANCES`]. Before that a cloth in free fall carries
+/// its rounding along, which grows as the time does.
+fn growth(partings: &[Parting], rounding: f64) -> Option<f64> {
     let end = partings.iter().position(|p| p.rms >= DISTANCES[0].0).unwrap_or(partings.len());
     let before = &partings[..end];
-    let start = before.iter().rposition(|p| p.rms <= 4.0 * least(before)).unwrap_or(0);
+    let start = before.iter().rposition(|p| p.rms <= GROWN * rounding)?;
     let points: Vec<[f64; 2]> =
         before[start..].iter().filter(|p| p.rms > 0.0).map(|p| [p.time, math::ln(p.rms)]).collect();
-    if points.len() < 5 {
+    if points.len() < FEWEST {
         return None;
     }
     let n = points.len() as f64;
@@ -138,11 +145,6 @@ fn growth(partings: &[Parting]) -> Option<f64> {
         |i: usize, j: usize| points.iter().map(|p| [p[0] - t, p[1] - y]).map(|p| p[i] * p[j]).sum::<f64>();
     let slope = product(0, 1) / product(0, 0);
     (slope > 0.0).then_some(slope)
-}
-
-/// The least distance above 0.
-fn least(partings: &[Parting]) -> f64 {
-    partings.iter().map(|p| p.rms).filter(|&rms| rms > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 /// The distance of two points.
@@ -164,14 +166,23 @@ mod tests {
     #[test]
     fn the_growth_is_the_rate_before_a_micrometre() {
         let partings = partings(|t| 1e-16 * math::exp(30.0 * t));
-        assert!((growth(&partings).unwrap() - 30.0).abs() < 1e-9);
+        assert!((growth(&partings, 1e-16).unwrap() - 30.0).abs() < 1e-9);
         assert_eq!(reached(&partings, 1e-6), Some(67.0 / 90.0));
         assert_eq!(reached(&partings, 1e-2), None);
     }
 
     #[test]
     fn what_does_not_grow_has_no_rate() {
-        assert_eq!(growth(&partings(|_| 1e-16)), None);
-        assert_eq!(growth(&partings(|_| 0.0)), None);
+        assert_eq!(growth(&partings(|_| 1e-16), 1e-16), None);
+        assert_eq!(growth(&partings(|_| 0.0), 1e-16), None);
+        assert_eq!(growth(&partings(|_| 1e-3), 1e-16), None, "parted in the first frame");
+    }
+
+    #[test]
+    fn what_falls_before_it_touches_has_the_rate_of_the_contact() {
+        let before = |t: f64| 1e-14 * (1.0 + t);
+        let after = |t: f64| before(0.5) * math::exp(100.0 * (t - 0.5));
+        let partings = partings(|t| if t < 0.5 { before(t) } else { after(t) });
+        assert!((growth(&partings, 1e-16).unwrap() - 100.0).abs() < 1e-6);
     }
 }

@@ -80,25 +80,34 @@ fn map(horizon: &Horizon) -> Result<String> {
     }
     #[expect(clippy::cast_possible_truncation, reason = "sides of a grid that fits in memory")]
     let (width, height) = (columns as u32 * POINT, rows as u32 * POINT);
+    let range = range(&horizon.map);
     let mut pixels = Vec::with_capacity((width * height * 4) as usize);
     for y in 0..height {
         for x in 0..width {
             let p = (y / POINT) as usize * columns + (x / POINT) as usize;
-            pixels.extend(color(horizon.map.get(p).copied().unwrap_or(0.0)));
+            pixels.extend(color(horizon.map.get(p).copied().unwrap_or(0.0), range));
         }
     }
     let png = png::encode(width, height, &pixels, Effort::Small)?;
     let picture = page::image("how far each point has parted", &png);
     Ok(format!(
-        "<h2>Where they part</h2>\n<figure>{picture}<figcaption>The cloth laid flat, at the end: dark blue 1e-16 m \
-         and less, yellow 1 m and more, on a logarithmic scale.</figcaption></figure>\n"
+        "<h2>Where they part</h2>\n<figure>{picture}<figcaption>The cloth laid flat, at the end: from dark blue, {} m \
+         and less, to yellow, {} m, on a logarithmic scale.</figcaption></figure>\n",
+        short(range[0]),
+        short(range[1])
     ))
 }
 
-/// Dark blue to yellow over 16 powers of ten.
-fn color(distance: f64) -> [u8; 4] {
-    let place =
-        ((drape::math::ln(distance.max(1e-16)) / drape::math::ln(10.0) + 16.0) / 16.0).clamp(0.0, 1.0);
+/// The smallest and the largest distance of a point that has parted; a tenth of the largest at most for the smallest.
+fn range(map: &[f64]) -> [f64; 2] {
+    let parted = map.iter().copied().filter(|&distance| distance > 0.0);
+    let [low, high] = [parted.clone().fold(1.0, f64::min), parted.fold(1e-16, f64::max)];
+    [low.min(0.1 * high), high]
+}
+
+/// Dark blue to yellow from `low` to `high`, by the logarithm.
+fn color(distance: f64, [low, high]: [f64; 2]) -> [u8; 4] {
+    let place = (drape::math::ln(distance.max(low) / low) / drape::math::ln(high / low)).clamp(0.0, 1.0);
     let mix = |from: f64, to: f64| (from + (to - from) * place).round();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 255")]
     let [r, g, b] = [mix(20.0, 250.0), mix(30.0, 230.0), mix(110.0, 40.0)].map(|channel| channel as u8);

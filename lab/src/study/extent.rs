@@ -1,5 +1,10 @@
 //! How much a study runs.
 
+use super::method::MODEL;
+
+/// Options that a model may keep although they have no limit as the step shrinks, as keys of `sim`.
+pub const KEPT: [&str; 2] = ["stretch_limit", "self_collision"];
+
 /// How much is run: the size of the matrix, and the limits of cost and time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
@@ -23,6 +28,8 @@ pub struct Extent {
     pub resolutions: Vec<u32>,
     /// Selects runs by part of their name or by their integrator, and makes no pictures; everything if empty.
     pub only: Vec<String>,
+    /// Options of the scene that the model keeps although they have no limit as the step shrinks: some of [`KEPT`].
+    pub kept: Vec<&'static str>,
     /// Part K of N of the runs, counted from 0, and no pictures.
     pub part: Option<[usize; 2]>,
 }
@@ -41,6 +48,7 @@ impl Extent {
             picture_width: 512,
             resolutions: vec![16, 40, 128],
             only: Vec::new(),
+            kept: Vec::new(),
             part: None,
         }
     }
@@ -58,8 +66,27 @@ impl Extent {
             picture_width: 256,
             resolutions: vec![16, 128],
             only: Vec::new(),
+            kept: Vec::new(),
             part: None,
         }
+    }
+
+    /// The same up to `tenth`, in tenths of a second, with moments at the same parts of the whole.
+    pub fn up_to(mut self, tenth: u32) -> Self {
+        let last = f64::from(self.last().max(1));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most `tenth`")]
+        let part = |moment: u32| (f64::from(moment) / last * f64::from(tenth)).round().max(1.0) as u32;
+        self.tenths = self.tenths.into_iter().map(part).collect();
+        self.tenths.dedup();
+        self
+    }
+
+    /// The changes that turn a scene into the model: [`MODEL`] without what is kept.
+    pub fn model(&self) -> Vec<&'static str> {
+        let is_kept = |set: &&str| {
+            self.kept.iter().any(|key| set.strip_prefix("sim.").is_some_and(|set| set.starts_with(key)))
+        };
+        MODEL.into_iter().filter(|set| !is_kept(set)).collect()
     }
 
     /// The last moment, in tenths of a second.

@@ -1,7 +1,7 @@
 //! The matrix of runs: method × steps per second × stiffness.
 
 use super::extent::Extent;
-use super::method::{LARGE_STEPS, METHODS, MODEL, Rates, run_name};
+use super::method::{LARGE_STEPS, METHODS, Rates, run_name};
 use super::rates::{clock, rates_around, springs_in};
 use super::source::Source;
 use drape::cloth::Params;
@@ -119,7 +119,7 @@ fn names(panels: &[Panel]) -> String {
 
 /// The panel of `density`, which is this `part` of the density of the scene `stock`.
 fn panel(source: &Source, stock: &Scene, [density, part]: [f64; 2], extent: &Extent) -> Result<Panel> {
-    let mut sets: Vec<String> = MODEL.iter().map(ToString::to_string).collect();
+    let mut sets: Vec<String> = extent.model().iter().map(ToString::to_string).collect();
     sets.push(format!("cloth.density={density:?}"));
     let scene = source.scene(&sets)?;
     let Some(cloth) = &scene.cloth else {

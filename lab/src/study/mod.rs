@@ -2,9 +2,9 @@
 //! cloth against a self-converged reference, the ways to draw the scene against a converged picture,
 //! and the advice that follows: the best choice within a budget.
 
-pub mod extent;
 pub mod source;
 pub mod method;
+pub mod extent;
 mod rates;
 pub mod matrix;
 pub mod trajectory;

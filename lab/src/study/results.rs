@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::findings::{Cost, PanelStudy, Study};
-use super::method::{METHODS, MODEL, Method};
+use super::method::{METHODS, Method};
 use super::pareto::{Advice, advice, front};
 use super::pictures::{Drawn, Pictures};
 use super::reference::Difference;
@@ -22,7 +22,9 @@ pub struct Results<'a> {
     /// The moments at which positions are compared, in seconds.
     times: Vec<f64>,
     /// The changes that turn the scene into the model.
-    model: [&'static str; 6],
+    model: Vec<&'static str>,
+    /// Keys of `sim` that the model keeps although they have no limit as the step shrinks.
+    without_limit: &'a [&'static str],
     methods: &'static [Method],
     panels: Vec<PanelResults<'a>>,
     /// Stiffnesses over mass, in 1/s², whose reference would take too long.
@@ -101,7 +103,8 @@ impl<'a> Results<'a> {
             runs_made,
             runs_kept,
             times: study.extent.tenths.iter().map(|&tenth| f64::from(tenth) / 10.0).collect(),
-            model: MODEL,
+            model: study.extent.model(),
+            without_limit: &study.extent.kept,
             methods: &METHODS,
             panels: study.panels.iter().map(PanelResults::new).collect(),
             left_out: &study.left_out,
@@ -111,7 +114,7 @@ impl<'a> Results<'a> {
 
     /// The advice as lines of text.
     pub fn text(&self) -> String {
-        let mut text = String::new();
+        let mut text = kept(self.without_limit).map_or_else(String::new, |note| note + "\n");
         for panel in &self.panels {
             text += &format!(
                 "k/m {:.2e} /s² ({}: {} kg/m²), wall time per simulated second and error at {} s:\n",
@@ -129,6 +132,18 @@ impl<'a> Results<'a> {
         }
         text
     }
+}
+
+/// What an error means under a model that keeps these keys of `sim`, if it does.
+pub(super) fn kept(keys: &[&str]) -> Option<String> {
+    let keys: Vec<String> = keys.iter().map(|key| format!("sim.{key}")).collect();
+    (!keys.is_empty()).then(|| {
+        format!(
+            "the model keeps {}, which acts once a step and may have no limit: an error is the distance from the finest run, and \
+             the floor says how far that can be trusted",
+            keys.join(" and ")
+        )
+    })
 }
 
 fn lines(choices: &[Choice], cost: &str, error: &str) -> String {

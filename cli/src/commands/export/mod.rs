@@ -123,7 +123,7 @@ impl Args {
             let until = self.moment.until(scene);
             return Ok((until.frames..until.frames + 1, until));
         };
-        Ok((frames.clone(), Until { frames: frames.end - 1, rest: false }))
+        Ok((frames.clone(), Until { frames: frames.end - 1, rest: false, watched: false }))
     }
 
     /// The pattern of numbered files, which go with --frames.

@@ -3,9 +3,11 @@
 mod plots;
 mod tables;
 
+use super::extent::Extent;
 use super::findings::{Cost, PanelStudy, Study};
-use super::method::{METHODS, MODEL};
+use super::method::METHODS;
 use super::pictures::Pictures;
+use super::results::kept;
 use crate::page::comparison::figure;
 use crate::page::{self, escape, live::Live, short};
 use drape::error::Result;
@@ -47,16 +49,30 @@ pub fn page(study: &Study, scene: &str, live: Option<&Live>) -> Result<String> {
                  size, and a cloth that becomes unstable cannot be drawn.</p>\n"
             .to_owned(),
     };
-    Ok(text + &method_section() + page::END)
+    Ok(text + &method_section(&study.extent) + page::END)
+}
+
+/// What the model leaves out, and what it keeps although it has no limit.
+fn without(extent: &Extent) -> String {
+    let left_out: Vec<&str> = [("stretch_limit", "stretch limit"), ("self_collision", "self-collision")]
+        .into_iter()
+        .filter(|(key, _)| !extent.kept.contains(key))
+        .map(|(_, name)| name)
+        .collect();
+    let note = kept(&extent.kept).map_or_else(String::new, |note| format!("({}) ", escape(&note)));
+    match left_out.is_empty() {
+        true => note.trim_end().to_owned(),
+        false => format!("{note}without {}", left_out.join(" and ")),
+    }
 }
 
 fn introduction(study: &Study) -> String {
     let times: Vec<String> =
         study.extent.tenths.iter().map(|t| format!("{}", f64::from(*t) / 10.0)).collect();
     format!(
-        "Compared is the start of the motion, at {} s, without stretch limit and self-collision and with damping per \
+        "Compared is the start of the motion, at {} s, {} and with damping per \
          second, whatever the scene says: all methods approach only this model as their steps shrink. Methods that \
-         are named after one of these three options use it. {}</p>\n\
+         are named after one of these options use it. {}</p>\n\
          <p>Each point is a method at a number of steps per second. The horizontal axis is the cost. The vertical axis \
          is the error: the root mean square distance of the points from those of the reference. The reference is the \
          model with so many steps that halving their number changes the positions by less than the grey floor. An \
@@ -64,6 +80,7 @@ fn introduction(study: &Study) -> String {
          the floor. Times were measured one run after the other on this machine; each is the median of up to {} \
          interleaved repetitions. Springs visited are counted, and the same on every machine.{}",
         times.join(", "),
+        without(&study.extent),
         cloths(study),
         study.extent.repeats,
         match study.extent.only.is_empty() {
@@ -160,7 +177,7 @@ fn picture_section(pictures: &Pictures) -> Result<String> {
 }
 
 /// What each method changes.
-fn method_section() -> String {
+fn method_section(extent: &Extent) -> String {
     let code = |sets: &[String]| {
         let sets: Vec<_> = sets.iter().map(|set| format!("<code>{}</code>", escape(set))).collect();
         if sets.is_empty() { "the model itself".to_owned() } else { sets.join(" ") }
@@ -173,6 +190,6 @@ fn method_section() -> String {
         "<h2>Methods</h2>\n<p>What each method sets besides the steps, as <code>--set</code> takes it. An implicit method is stable with any \
          number of steps, but fewer steps are not always cheaper: a longer step takes more iterations.</p>\n\
          <div class=\"wide\"><table><tr><th>method</th><th>changes</th></tr>\n{}{rows}</table></div>\n",
-        row(("model", code(&MODEL.map(str::to_owned)))),
+        row(("model", code(&extent.model().into_iter().map(str::to_owned).collect::<Vec<_>>()))),
     )
 }
