@@ -88,11 +88,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if table.is_some() || args.ledger {
         simulation.record_ledger()?;
     }
+    let heights = simulation.positions().y.clone();
     args.state.restore(&mut simulation, &scene, until.frames)?;
     let mut saving = args.state.saving(&scene);
     let mut hashes = Vec::new();
     let (mut before, mut limited) = (0, 0);
-    let heights = simulation.positions().y.clone();
     let ended = advance_until(&mut simulation, &scene, until, session, |now| {
         let all = now.counters().springs_limited;
         (limited, before) = (all - before, all);

@@ -55,7 +55,7 @@ pub(crate) struct Summary {
 pub(crate) struct Seen {
     pub(crate) rest: Option<Rest>,
     pub(crate) hashes: Vec<String>,
-    /// The heights of the points before the first frame, in metres.
+    /// The heights of the points at the start of the scene, in metres.
     pub(crate) heights: Vec<f64>,
     /// Springs that the stretch limit shortened in the last frame.
     pub(crate) limited: u64,
@@ -68,7 +68,7 @@ struct Heights {
     lowest: f64,
     mean: f64,
     highest: f64,
-    /// The most that a point is below the height from which it was simulated.
+    /// The most that a point is below its height at the start of the scene.
     sag: f64,
 }
 
