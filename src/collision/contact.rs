@@ -23,6 +23,9 @@ use crate::scene::Vec3;
 /// Points that are asked at once.
 const BLOCK: usize = 8;
 
+/// How near rounding may take a way to an object that it does not touch, relative to the coordinates.
+pub(super) const ROUNDING: f64 = 1e-9;
+
 /// Where a way enters an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
@@ -49,8 +52,17 @@ pub(crate) trait Shape: Sync {
     /// inside it enters where it starts, at the surface.
     fn enter(&self, p: usize, from: Vec3, way: Vec3) -> Option<Entry>;
 
+    /// Whether point `p` may touch the object on its way from `from` to `to`: false only if it stays outside for
+    /// certain, by more than rounding.
+    fn is_near(&self, p: usize, from: Vec3, to: Vec3) -> bool;
+
     /// Its `friction`.
     fn friction(&self) -> f64;
+
+    /// Marks in `near` which of the points `block`, on their ways from `last` to `x`, may touch the object.
+    fn mark_near(&self, x: &Points, last: &Points, block: Range<usize>, near: &mut [bool]) {
+        dispatch_plain!(mark_near(self, x, last, block.clone(), near));
+    }
 
     /// Resolves the contacts of every unpinned point.
     fn resolve_points(&self, x: &mut Points, last: &Points, pins: &Pins, counters: &mut Counters) {
@@ -70,6 +82,32 @@ pub(crate) trait Shape: Sync {
             }
         }
     }
+}
+
+/// Marks in `near` which of the points `block`, on their ways from `last` to `x`, may touch `shape`.
+#[inline(always)]
+fn mark_near(
+    shape: &(impl Shape + ?Sized),
+    x: &Points,
+    last: &Points,
+    block: Range<usize>,
+    near: &mut [bool],
+) {
+    let n = near.len();
+    let [to_x, to_y, to_z] = [&x.x, &x.y, &x.z].map(|x| &x[block.clone()][..n]);
+    let [from_x, from_y, from_z] = [&last.x, &last.y, &last.z].map(|last| &last[block.clone()][..n]);
+    for i in 0..n {
+        let (from, to) = (Vec3::new(from_x[i], from_y[i], from_z[i]), Vec3::new(to_x[i], to_y[i], to_z[i]));
+        near[i] |= shape.is_near(block.start + i, from, to);
+    }
+}
+
+/// Whether a way from `from` to `to` along an axis may reach the interval from `lower` to `upper`. What is not a number may.
+#[inline(always)]
+pub(super) fn may_reach(from: f64, to: f64, lower: f64, upper: f64) -> bool {
+    let margin = ROUNDING * (from.abs() + to.abs() + lower.abs() + upper.abs());
+    let (lower, upper) = (lower - margin, upper + margin);
+    !((from < lower) & (to < lower)) & !((from > upper) & (to > upper))
 }
 
 /// A chunk of the points of a cloth.

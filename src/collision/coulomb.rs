@@ -14,6 +14,8 @@
 //! Both the way and the velocity are changed because they differ: the velocity at the end of a step is what the
 //! integrator says that it is. Each contact takes `m (|v|² - |v'|²) / 2`, which is never below 0 but for rounding.
 
+use std::ops::Range;
+
 use super::Colliders;
 use super::contact::{Entry, Shape};
 use crate::cloth::grid::Pins;
@@ -23,6 +25,9 @@ use crate::scene::{ColliderKind, PerKind, Vec3};
 
 /// Most contacts of a point in one step.
 const MOST_CONTACTS: u32 = 16;
+
+/// Points that are asked at once whether they are near an object.
+const BLOCK: usize = 64;
 
 /// The part of a way that leads into an object where the way only grazes it: what rounding makes of a way along the
 /// surface.
@@ -92,22 +97,41 @@ impl Coulomb {
         velocity: impl Fn(usize, Vec3, Vec3) -> Vec3,
         counters: &mut Counters,
     ) {
-        for p in pins.free.iter().cloned().flatten() {
-            let (end, start) = (x.get(p), last.get(p));
-            let motion = Motion { at: start, way: end - start, velocity: Vec3::zeros() };
-            let entry = first_entry(p, &motion, colliders);
-            if entry.is_none() && put_outside(p, end, colliders).is_none() {
-                continue;
+        for block in pins.free.iter().flat_map(blocks) {
+            let near = near(x, last, &block, colliders);
+            for p in block.zip(near).filter_map(|(p, near)| near.then_some(p)) {
+                let (end, start) = (x.get(p), last.get(p));
+                let motion = Motion { at: start, way: end - start, velocity: Vec3::zeros() };
+                let entry = first_entry(p, &motion, colliders);
+                if entry.is_none() && put_outside(p, end, colliders).is_none() {
+                    continue;
+                }
+                self.touch(p, || velocity(p, end, start));
+                let motion = Motion { velocity: self.velocity.get(p), ..motion };
+                let motion = motion.meet(p, end, entry, colliders, &mut self.change.colliders);
+                x.set(p, motion.at);
+                self.velocity.set(p, motion.velocity);
+                counters.object_moves += 1;
             }
-            self.touch(p, || velocity(p, end, start));
-            let motion = Motion { velocity: self.velocity.get(p), ..motion };
-            let motion = motion.meet(p, end, colliders, &mut self.change.colliders);
-            x.set(p, motion.at);
-            self.velocity.set(p, motion.velocity);
-            counters.object_moves += 1;
         }
         counters.object_tests += pins.free_points() * colliders.len() as u64;
     }
+}
+
+/// `points`, up to [`BLOCK`] at once.
+fn blocks(points: &Range<usize>) -> impl Iterator<Item = Range<usize>> + use<> {
+    let end = points.end;
+    points.clone().step_by(BLOCK).map(move |start| start..(start + BLOCK).min(end))
+}
+
+/// Which of the points `block` may touch an object on their ways from `last` to `x`: few do, so all are asked a cheap
+/// question at once before each is swept.
+fn near(x: &Points, last: &Points, block: &Range<usize>, colliders: &Colliders) -> [bool; BLOCK] {
+    let mut near = [false; BLOCK];
+    for (_, shape) in colliders.shapes() {
+        shape.mark_near(x, last, block.clone(), &mut near[..block.len()]);
+    }
+    near
 }
 
 /// The motion of a point.
@@ -121,10 +145,20 @@ struct Motion {
 }
 
 impl Motion {
-    /// The end of the step of point `p`, which would end at `x` without contact.
-    fn meet(mut self, p: usize, x: Vec3, colliders: &Colliders, change: &mut PerKind<f64>) -> Self {
+    /// The end of the step of point `p`, which would end at `x` without contact; it enters an object at `next` first.
+    fn meet<'a>(
+        mut self,
+        p: usize,
+        x: Vec3,
+        mut next: Option<Meeting<'a>>,
+        colliders: &'a Colliders,
+        change: &mut PerKind<f64>,
+    ) -> Self {
         for contacts in 0..MOST_CONTACTS {
-            let Some((kind, shape, entry)) = first_entry(p, &self, colliders) else {
+            if contacts > 0 {
+                next = first_entry(p, &self, colliders);
+            }
+            let Some((kind, shape, entry)) = next else {
                 self.at = if contacts > 0 { self.at + self.way } else { x };
                 break;
             };
@@ -138,13 +172,12 @@ impl Motion {
     }
 }
 
+/// An object that a point enters, its kind, and where.
+type Meeting<'a> = (ColliderKind, &'a dyn Shape, Entry);
+
 /// The object that point `p` enters first, and where.
-fn first_entry<'a>(
-    p: usize,
-    motion: &Motion,
-    colliders: &'a Colliders,
-) -> Option<(ColliderKind, &'a dyn Shape, Entry)> {
-    let mut first: Option<(ColliderKind, &dyn Shape, Entry)> = None;
+fn first_entry<'a>(p: usize, motion: &Motion, colliders: &'a Colliders) -> Option<Meeting<'a>> {
+    let mut first: Option<Meeting<'_>> = None;
     for (kind, shape) in colliders.shapes() {
         if let Some(entry) = shape.enter(p, motion.at, motion.way)
             && -dot(motion.way, entry.normal) > GRAZE * len(motion.way)
@@ -195,6 +228,43 @@ pub(crate) fn start_outside(x: &mut Points, last: &mut Points, pins: &Pins, coll
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::splitmix64;
+    use crate::scene::{Overrides, load_text};
+
+    #[test]
+    fn what_is_not_near_an_object_does_not_touch_it() {
+        let text = r#"{"sim": {"contact": "coulomb"}, "sphere": {"origin": [0.2, 0, 0], "radius": 0.5, "friction": 0},
+            "plane": {"point": [0, -0.6, 0], "normal": [1, 2, 3], "friction": 0},
+            "box": {"origin": [-0.3, 0.1, 0], "size": [0.4, 0.8, 1], "friction": 0}}"#;
+        let scene = load_text("a.json", text, &Overrides::default()).unwrap().scene;
+        let count = 4000;
+        let random = |i: u64| (splitmix64(i) >> 11) as f64 / 2.0_f64.powi(53) * 2.4 - 1.2;
+        let [mut x, mut last] = [0, 1].map(|_| Points::zeros(count).unwrap());
+        for p in 0..count {
+            let i = 6 * p as u64;
+            last.set(p, Vec3::new(random(i), random(i + 1), random(i + 2)));
+            // Long ways and short ones.
+            let part = if p % 2 == 0 { 1.0 } else { 0.05 };
+            x.set(p, last.get(p) + Vec3::new(random(i + 3), random(i + 4), random(i + 5)) * part);
+        }
+        let colliders = Colliders::new(&scene, &last).unwrap();
+        for (kind, shape) in colliders.shapes() {
+            let touches = |p: usize| {
+                let (from, to) = (last.get(p), x.get(p));
+                shape.enter(p, from, to - from).is_some() || shape.depenetrate(p, to).is_some()
+            };
+            let mut counts = [0; 3];
+            for block in blocks(&(0..count)) {
+                let mut near = [false; BLOCK];
+                shape.mark_near(&x, &last, block.clone(), &mut near[..block.len()]);
+                for (p, near) in block.zip(near) {
+                    assert!(near || !touches(p), "{kind:?}: from {} to {}", last.get(p), x.get(p));
+                    counts[usize::from(near) + usize::from(touches(p))] += 1;
+                }
+            }
+            assert!(counts[0] > 500 && counts[2] > 100, "{kind:?}: {counts:?} are far, near, touching");
+        }
+    }
 
     #[test]
     fn contact_ends_the_approach_and_brakes_the_slide() {

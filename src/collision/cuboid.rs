@@ -1,6 +1,6 @@
 //! The box: a point inside it is put on its nearest face.
 
-use super::contact::{Entry, Shape};
+use super::contact::{Entry, Shape, may_reach};
 use crate::scene::{self, Vec3};
 
 /// A box, ready for the step.
@@ -126,6 +126,14 @@ impl Shape for Cuboid {
             let point = self.on_face(from + way * part, face);
             Entry { part, point, normal }
         })
+    }
+
+    #[inline(always)]
+    fn is_near(&self, _p: usize, from: Vec3, to: Vec3) -> bool {
+        let Self { lower, upper, .. } = self;
+        may_reach(from.x, to.x, lower.x, upper.x)
+            & may_reach(from.y, to.y, lower.y, upper.y)
+            & may_reach(from.z, to.z, lower.z, upper.z)
     }
 
     fn friction(&self) -> f64 {

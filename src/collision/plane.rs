@@ -1,6 +1,6 @@
 //! The plane: a point that went through it is put back on the side from which it came.
 
-use super::contact::{Entry, Shape};
+use super::contact::{Entry, ROUNDING, Shape};
 use crate::cloth::{Points, dot, filled, len};
 use crate::error::Result;
 use crate::scene::{self, Vec3};
@@ -86,6 +86,15 @@ impl Shape for Plane {
         let part = height.max(0.0) / -change;
         let point = from + way * part;
         Some(Entry { part, point: self.depenetrate(p, point).unwrap_or(point), normal })
+    }
+
+    /// A way ends above the plane or goes through it.
+    #[inline(always)]
+    fn is_near(&self, p: usize, from: Vec3, to: Vec3) -> bool {
+        let height = dot(to - self.point, self.normal);
+        let height = if self.above[p] { height } else { -height };
+        let sizes = [self.point, from, to].map(|x| x.x.abs() + x.y.abs() + x.z.abs());
+        !(height > ROUNDING * (sizes[0] + sizes[1] + sizes[2]))
     }
 
     fn friction(&self) -> f64 {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::INTEGRATORS;
 
 /// The steps per frame of the columns; the first ones run always.
-const STEPS: [u32; 6] = [10, 30, 100, 300, 1000, 3000];
+const STEPS: [u32; 7] = [10, 30, 100, 300, 1000, 3000, 10000];
 const ALWAYS: usize = 4;
 
 /// The names that the page gives the integrators.
