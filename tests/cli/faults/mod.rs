@@ -32,13 +32,14 @@ struct Fault {
 }
 
 /// What the tests need of the package.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 14] = [
     "Cargo.toml",
     "Cargo.lock",
     "README.md",
     "src",
     "lab",
     "cli",
+    "web",
     "examples",
     "tests",
     "benches",
@@ -110,6 +111,17 @@ fn every_fault_is_caught() {
     }
     copied(None);
     assert!(missed.is_empty(), "missed:\n{}", missed.join("\n"));
+}
+
+#[test]
+fn every_package_is_a_part() {
+    let manifest = fs::read_to_string(package().join("Cargo.toml")).unwrap();
+    let members = manifest.lines().find(|line| line.starts_with("members")).unwrap();
+    let folders: Vec<&str> = members.split('"').skip(1).step_by(2).collect();
+    assert!(folders.len() > 2, "{members}");
+    for folder in folders {
+        assert!(PARTS.contains(&folder.split('/').next().unwrap()), "{folder} is not copied");
+    }
 }
 
 /// Copies a file or folder of the package, with the fault applied; writes only what changes, so
