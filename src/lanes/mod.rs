@@ -10,6 +10,7 @@ pub mod level;
 mod operations;
 mod pair;
 mod scalar;
+mod texels;
 mod vector;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -139,8 +140,23 @@ pub trait Part: Lane<Part = Self> {
     fn to_whole(self) -> Self::Whole;
     /// `other` in the lanes where `keys` is `key`, else `self`. There are [`Part::WIDTH`] keys.
     fn replace(self, keys: &[u32], key: u32, other: Self) -> Self;
+    /// As [`Part::to_whole`], but a number below -2³¹, from 2³¹ on, or NaN may become any number that is
+    /// not among 0..2³⁰, or what it is there.
+    fn whole_if_small(self) -> Self::Whole;
     /// Red, green and blue of a texel in each lane: lane i has that of `texel(i)`.
     fn transpose(token: Self::Token, texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3];
+    /// Red, green and blue between four texels in each lane: the one at `places`, the one after it, and both `down`
+    /// further on; the weights are those of the second of two, along the row and down. a + (b - a)·f along both rows,
+    /// then down.
+    ///
+    /// # Panics
+    /// If one of the texels is not there.
+    fn bilinear(texels: &[[f32; 4]], places: Self::Whole, down: u32, weights: [Self; 2]) -> [Self; 3];
+    /// As [`Part::bilinear`], of one channel alone.
+    ///
+    /// # Panics
+    /// If one of the texels is not there.
+    fn bilinear_plane(texels: &[f32], places: Self::Whole, down: u32, weights: [Self; 2]) -> Self;
 }
 
 /// Whole numbers side by side.
@@ -155,6 +171,8 @@ pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, 
     fn select_equal(self, other: Self, then: Self, otherwise: Self) -> Self;
     /// Whether all lanes are at least 0 and less than `end`.
     fn within(self, end: i32) -> bool;
+    /// The number in all lanes, if it is the same.
+    fn same(self) -> Option<i32>;
     /// `f` of every lane.
     fn each(self, f: impl FnMut(i32) -> i32) -> Self;
     /// One lane.

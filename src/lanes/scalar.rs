@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Part, Whole, is_its_only_part};
+use super::{Lane, Part, Whole, is_its_only_part, texels::square};
 
 /// A number of binary64. A type of its own, because `f64` has no operations with plain `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,6 +123,25 @@ macro_rules! one_lane {
                 if keys[0] == key { other } else { self }
             }
             #[inline(always)]
+            fn whole_if_small(self) -> i32 {
+                self.to_whole()
+            }
+            #[inline(always)]
+            fn bilinear(texels: &[[f32; 4]], place: i32, down: u32, [right, lower]: [Self; 2]) -> [Self; 3] {
+                let square = square(texels, place, down);
+                [0, 1, 2].map(|channel: usize| {
+                    let [a, b, c, d] = square.map(|texel| Self::from(texel[channel]));
+                    let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
+                    top + (bottom - top) * lower
+                })
+            }
+            #[inline(always)]
+            fn bilinear_plane(texels: &[f32], place: i32, down: u32, [right, lower]: [Self; 2]) -> Self {
+                let [a, b, c, d] = square(texels, place, down).map(Self::from);
+                let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
+                top + (bottom - top) * lower
+            }
+            #[inline(always)]
             fn transpose((): (), mut texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3] {
                 let [red, green, blue, _] = texel(0);
                 [red.into(), green.into(), blue.into()]
@@ -159,6 +178,10 @@ impl Whole for i32 {
     #[inline(always)]
     fn within(self, end: i32) -> bool {
         (0..end).contains(&self)
+    }
+    #[inline(always)]
+    fn same(self) -> Option<i32> {
+        Some(self)
     }
     #[inline(always)]
     fn each(self, mut f: impl FnMut(i32) -> i32) -> i32 {
