@@ -19,6 +19,7 @@ use fearless_simd::Simd;
 
 pub use pair::Pair;
 pub use scalar::F64;
+pub(crate) use scalar::rgba8;
 
 /// What [`Lane`] asks of a type that is a [`Part`] itself.
 macro_rules! is_its_only_part {
@@ -119,6 +120,8 @@ pub const MAX_LANES: usize = 32;
 pub trait Part: Lane<Part = Self> {
     /// How many fragments it holds: a power of two, at most [`MAX_WIDTH`].
     const WIDTH: usize;
+    /// A bit for each of them.
+    const ALL_LANES: u32 = (1 << Self::WIDTH) - 1;
     /// The same lanes in binary64, in which positions in the window are computed.
     type Double: Copy + Add<Output = Self::Double> + Sub<Output = Self::Double> + Mul<Output = Self::Double>;
     /// The same lanes as whole numbers.
@@ -138,6 +141,11 @@ pub trait Part: Lane<Part = Self> {
     fn narrow(double: Self::Double) -> Self;
     /// Lanes that are whole numbers as integers; too large ones saturate, NaN is 0.
     fn to_whole(self) -> Self::Whole;
+    /// Writes red, green and blue in 0..=1 to the first [`Part::WIDTH`] elements of `out`: 8 bits each, rounded half
+    /// to even, red lowest, and 255 on top.
+    fn store_rgba8(rgb: [Self; 3], out: &mut [u32]);
+    /// A bit for each lane, the first one lowest, which is 1 where `keys` is `key`. There are [`Part::WIDTH`] keys.
+    fn lanes_with(token: Self::Token, keys: &[u32], key: u32) -> u32;
     /// `other` in the lanes where `keys` is `key`, else `self`. There are [`Part::WIDTH`] keys.
     fn replace(self, keys: &[u32], key: u32, other: Self) -> Self;
     /// As [`Part::to_whole`], but a number below -2³¹, from 2³¹ on, or NaN may become any number that is

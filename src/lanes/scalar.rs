@@ -119,6 +119,14 @@ macro_rules! one_lane {
                 $value as i32
             }
             #[inline(always)]
+            fn store_rgba8(rgb: [Self; 3], out: &mut [u32]) {
+                out[0] = rgba8(rgb.map(|$number| $value as f32));
+            }
+            #[inline(always)]
+            fn lanes_with((): (), keys: &[u32], key: u32) -> u32 {
+                u32::from(keys[0] == key)
+            }
+            #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {
                 if keys[0] == key { other } else { self }
             }
@@ -156,6 +164,16 @@ one_lane!(f32, rounded, number => number);
 #[inline(always)]
 fn rounded(value: f64) -> f32 {
     value as f32
+}
+
+/// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.
+pub(super) const WHOLE_STEPS: f32 = 8_388_608.0;
+
+/// A colour in 0..=1 with 8 bits of each channel, rounded half to even, red lowest, and 255 on top.
+#[inline(always)]
+pub(crate) fn rgba8(color: [f32; 3]) -> u32 {
+    let [r, g, b] = color.map(|c| (c * 255.0 + WHOLE_STEPS).to_bits() & 0xFF);
+    r | g << 8 | b << 16 | 255 << 24
 }
 
 impl Whole for i32 {

@@ -1,12 +1,13 @@
 //! One vector of 4, 8 or 16 numbers.
 
 use fearless_simd::{
-    Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, f32x4, f32x8, f32x16, f64x2, f64x4,
-    f64x8, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16,
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, f32x4, f32x8, f32x16, f64x2,
+    f64x4, f64x8, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16,
 };
 
 use super::{
     FragmentLanes, Lane, Pair, Part, Whole, is_its_only_part,
+    scalar::WHOLE_STEPS,
     texels::{
         bilinear_4, bilinear_8, bilinear_16, bilinear_plane_4, bilinear_plane_8, bilinear_plane_16, transpose,
     },
@@ -90,6 +91,20 @@ macro_rules! vector {
             #[inline(always)]
             fn to_whole(self) -> $whole<S> {
                 self.to_int_precise()
+            }
+            #[inline(always)]
+            fn store_rgba8([red, green, blue]: [Self; 3], out: &mut [u32]) {
+                // The addition rounds, and leaves the result in the low bits.
+                let red = (red * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let green = (green * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let blue = (blue * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let packed = red | green << 8 | blue << 16 | 255 << 24;
+                packed.store_slice(&mut out[..$width]);
+            }
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
+            fn lanes_with(token: S, keys: &[u32], key: u32) -> u32 {
+                $key::from_slice(token, &keys[..$width]).simd_eq($key::splat(token, key)).to_bitmask() as u32
             }
             #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {

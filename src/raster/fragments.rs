@@ -48,8 +48,13 @@ pub(super) struct FragmentList {
     /// Where in the pixel it is shaded: 0 for its centre, else one more than the number of a sample. Empty where
     /// pixels have one sample.
     pub(super) places: Vec<u8>,
-    /// Colours, one plane a channel, 0..=1: what the fragment stage puts out.
+    /// Whether several fragments may share a pixel. Then their colours are wanted as they are, else as they are
+    /// stored.
+    pub(super) shares_pixels: bool,
+    /// Colours, one plane a channel, 0..=1: what the fragment stage puts out if pixels are shared.
     pub(super) colors: [Vec<f32>; 3],
+    /// Stored colours: what it puts out if they are not.
+    pub(super) packed: Vec<u32>,
 }
 
 impl FragmentList {
@@ -62,9 +67,22 @@ impl FragmentList {
         self.weights.resize(room, 0);
         self.primitives.resize(room, 0);
         self.places.resize(if samples == 1 { 0 } else { room }, 0);
+        self.shares_pixels = samples > 1;
+        let (shared, alone) = if samples == 1 { (0, room) } else { (room, 0) };
         for plane in &mut self.colors {
-            plane.resize(room, 0.0);
+            plane.resize(shared, 0.0);
         }
+        self.packed.resize(alone, 0);
+    }
+
+    /// Lists all pixels of a tile, row by row, for one primitive that covers them.
+    pub(super) fn list_whole(&mut self, primitive: Handle) {
+        self.clear(1);
+        self.len = TILE_PIXELS;
+        for (pixel, number) in self.pixels.iter_mut().zip(0..) {
+            *pixel = number;
+        }
+        self.primitives.fill(primitive);
     }
 
     /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.

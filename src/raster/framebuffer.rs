@@ -7,6 +7,7 @@ use super::{
     tiling::{TILE, TILE_PIXELS},
     vertex::VertexBuffer,
 };
+use crate::mesh::Mesh;
 
 /// A picture in the making, with depth and visibility per sample.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub struct Framebuffer {
     /// Of the picture before: nothing but memory, which the next one need not ask for again.
     pub(super) buffers: Vec<VertexBuffer>,
     pub(super) chunks: Vec<Chunk>,
+    /// The same, for the mesh of the cloth.
+    pub(crate) mesh: Mesh,
 }
 
 /// One tile. Pixel (x, y) of the tile is element `y * TILE + x`; buffers with several samples hold
@@ -84,7 +87,16 @@ impl Framebuffer {
                 cleared: None,
             })
             .collect();
-        Self { width, height, samples, columns, tiles, buffers: Vec::new(), chunks: Vec::new() }
+        Self {
+            width,
+            height,
+            samples,
+            columns,
+            tiles,
+            buffers: Vec::new(),
+            chunks: Vec::new(),
+            mesh: Mesh::default(),
+        }
     }
 
     /// Stored colours, three bytes a pixel, top row first.

@@ -3,13 +3,12 @@
 //! A pixel's colour is the mean over its samples of the clamped linear colours, rounded half to
 //! even to 8 bits.
 
-use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, u32x8};
-
 use super::{
     fragments::{BLOCK_PIXELS, FragmentList, is_block},
     framebuffer::Tile,
     tiling::{TILE, TILE_PIXELS},
 };
+use crate::lanes::rgba8;
 
 /// The pixels of a tile with several samples; empty if there is one.
 pub(super) struct Pixels {
@@ -50,7 +49,7 @@ impl Pixels {
             if seen != 0 {
                 #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
                 let mean = sum.map(|channel| channel as f32);
-                *color = pack_rgba8(mean);
+                *color = rgba8(mean);
                 covered += 1;
             }
         }
@@ -68,17 +67,12 @@ pub(super) fn accumulate(list: &FragmentList, samples: usize, sums: &mut [[f64; 
     }
 }
 
-/// Stores the colours of a list in a tile with one sample a pixel.
+/// Stores the colours of a list whose pixels are all different.
 #[inline(always)]
-pub(super) fn write_colors<S: Simd>(simd: S, tile: &mut Tile, list: &FragmentList) {
-    let [red, green, blue] = &list.colors;
-    for (block, pixels) in list.filled().as_chunks().0.iter().enumerate() {
-        let first = block * BLOCK_PIXELS;
-        let red = quantize(f32x8::from_slice(simd, &red[first..first + BLOCK_PIXELS]));
-        let green = quantize(f32x8::from_slice(simd, &green[first..first + BLOCK_PIXELS]));
-        let blue = quantize(f32x8::from_slice(simd, &blue[first..first + BLOCK_PIXELS]));
-        let colors = red | green << 8 | blue << 16 | 255 << 24;
-        write_block(&mut tile.color, pixels, &colors.to_array());
+pub(super) fn write_colors(tile: &mut Tile, list: &FragmentList) {
+    let colors = list.packed.as_chunks().0;
+    for (pixels, colors) in list.filled().as_chunks().0.iter().zip(colors) {
+        write_block(&mut tile.color, pixels, colors);
     }
 }
 
@@ -113,22 +107,5 @@ fn clamp(c: f32) -> f32 {
 
 /// The stored colour of the background.
 pub(super) fn background(color: [f32; 3]) -> u32 {
-    pack_rgba8(color.map(clamp))
-}
-
-/// 8 bits of each channel in 0..=1, red lowest, and alpha 1.
-#[inline(always)]
-fn pack_rgba8(color: [f32; 3]) -> u32 {
-    // round-half-even(255·c): the addition rounds, and leaves the result in the low bits.
-    let [r, g, b] = color.map(|c| (c * 255.0 + WHOLE).to_bits() & 0xFF);
-    r | g << 8 | b << 16 | 255 << 24
-}
-
-/// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.
-const WHOLE: f32 = 8_388_608.0;
-
-/// 8 bits of channels in 0..=1, as [`pack_rgba8`] has them.
-#[inline(always)]
-fn quantize<S: Simd>(channel: f32x8<S>) -> u32x8<S> {
-    (channel * 255.0 + WHOLE).to_bits() & 0xFF
+    rgba8(color.map(clamp))
 }

@@ -19,7 +19,7 @@ use super::{
     stats::TileStats,
     tiling::{TILE, TILE_PIXELS},
     timing::Clock,
-    triangle::{TileBounds, draw_triangle, first_covered},
+    triangle::{TileBounds, draw_triangle, fill_tile, first_covered, touches},
     vertex::VertexBuffer,
 };
 use crate::lanes::{
@@ -44,6 +44,9 @@ pub(super) struct Scratch {
     list: FragmentList,
 }
 
+/// Primitives in a tile up to which it is asked whether one of them is alone.
+const MAX_ALONE: usize = 4;
+
 /// Draws one tile. What is in `scratch` does not matter.
 pub(super) fn draw_tile(
     tile: &mut Tile,
@@ -63,10 +66,15 @@ pub(super) fn draw_tile(
         return TileStats { raster: clock.now() - started, ..TileStats::default() };
     }
 
+    if let Some(stats) = draw_whole(tile, &chunks, scene, &mut scratch.list, clock) {
+        return stats;
+    }
+
     // Visibility buffer: the nearest primitive of every sample.
     tile.begin(take(&mut scratch.visible));
     dispatch!(simd => find_visible(simd, tile, &chunks, scene));
-    if tile.visible.contains(&0) {
+    // Not `contains`, which looks at one after the other.
+    if tile.visible.iter().fold(false, |any, &handle| any | (handle == 0)) {
         tile.color.fill(background);
     }
     let seen = clock.now();
@@ -80,6 +88,54 @@ pub(super) fn draw_tile(
     TileStats { fragments, covered, raster: seen - started, shading: clock.now() - seen }
 }
 
+/// Draws a tile that a triangle covers alone: there is nothing to find out.
+fn draw_whole(
+    tile: &mut Tile,
+    chunks: &[usize],
+    scene: &TileScene<'_>,
+    list: &mut FragmentList,
+    clock: &impl Clock,
+) -> Option<TileStats> {
+    let started = clock.now();
+    let at = tile.position();
+    let count: usize = chunks.iter().map(|&chunk| scene.chunks[chunk].bins.in_tile(at).len()).sum();
+    if count > MAX_ALONE {
+        return None;
+    }
+    // What is binned here may only have its box in the tile.
+    let all = chunks
+        .iter()
+        .flat_map(|&chunk| scene.chunks[chunk].bins.in_tile(at).iter().map(move |&p| (chunk, p)));
+    let mut touching = all.filter(|&(number, primitive)| {
+        let chunk = &scene.chunks[number];
+        let Some(triangle) = chunk.triangles.get(primitive as usize) else { return true };
+        touches(&chunk.corners(triangle, &scene.buffers[chunk.call]), tile, &scene.viewport)
+    });
+    let (number, primitive) = touching.next()?;
+    if touching.next().is_some() {
+        return None;
+    }
+    let chunk = &scene.chunks[number];
+    let triangle = chunk.triangles.get(primitive as usize)?;
+    let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
+    let inside = TileBounds::of(triangle.bounds, tile).is_whole()
+        && dispatch!(simd => fill_tile(simd, tile, &corners, triangle.scale, &scene.viewport));
+    if !inside {
+        return None;
+    }
+    let (handle, filled) = (pack(number, primitive), clock.now());
+    list.list_whole(handle);
+    shade_fragments(tile, chunk.call, scene, list);
+    tile.color.copy_from_slice(&list.packed[..TILE_PIXELS]);
+    tile.cleared = None;
+    if scene.ids {
+        tile.ids.resize(TILE_PIXELS, id(handle, scene));
+    }
+    let pixels = TILE_PIXELS as u64;
+    let (raster, shading) = (filled - started, clock.now() - filled);
+    Some(TileStats { fragments: pixels, covered: pixels, raster, shading })
+}
+
 /// Depth and visibility of every primitive that touches the tile, in submission order.
 #[inline(always)]
 fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], scene: &TileScene<'_>) {
@@ -91,9 +147,7 @@ fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], sc
             let handle = pack(number, primitive);
             if let Some(triangle) = chunk.triangles.get(primitive as usize) {
                 let bounds = TileBounds::of(triangle.bounds, tile);
-                let [a, b, c] = triangle.vertices;
-                let corners =
-                    [chunk.corner(a, vertices), chunk.corner(b, vertices), chunk.corner(c, vertices)];
+                let corners = chunk.corners(triangle, vertices);
                 draw_triangle(simd, tile, &corners, triangle.scale, bounds, handle, viewport);
             } else if let Some(line) = chunk.lines.get(primitive as usize) {
                 let bounds = TileBounds::of(line.bounds, tile);
@@ -118,7 +172,7 @@ fn shade_tile(
         collect_fragments(tile, first..last + 1, scene, &pixels.seen, list);
         shade_fragments(tile, scene.chunks[first].call, scene, list);
         if samples == 1 {
-            dispatch!(simd => resolve::write_colors(simd, tile, list));
+            dispatch_plain!(resolve::write_colors(tile, list));
         } else {
             dispatch_plain!(resolve::accumulate(list, samples, &mut pixels.sums));
         }
@@ -161,7 +215,7 @@ fn place(tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) ->
     let (chunk, index) = unpack(primitive);
     let chunk = &scene.chunks[chunk];
     let Some(triangle) = chunk.triangles.get(index) else { return 0 };
-    let corners = triangle.vertices.map(|vertex| chunk.corner(vertex, &scene.buffers[chunk.call]));
+    let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
     let pixel = [tile.left + pixel % TILE, tile.top + pixel / TILE];
     let first = first_covered(&corners, pixel, scene.viewport.samples);
     #[expect(clippy::cast_possible_truncation, reason = "at most 16 samples")]

@@ -22,7 +22,7 @@ use crate::lanes::{FragmentLanes, Lane, Pair};
 const WIDTH: usize = 8;
 
 /// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Edge {
     at: i32,
     column: i32,
@@ -74,6 +74,11 @@ impl TileBounds {
         };
         Self { x: within(bounds.x, tile.left), y: within(bounds.y, tile.top) }
     }
+
+    /// Whether it is all of the tile.
+    pub(super) fn is_whole(&self) -> bool {
+        self.x == [0, TILE - 1] && self.y == [0, TILE - 1]
+    }
 }
 
 /// Draws a triangle into a tile's depth and visibility.
@@ -95,6 +100,52 @@ pub(super) fn draw_triangle<S: FragmentLanes>(
             draw_sample(simd, tile, &sample, &depth, bounds, handle, viewport.height);
         }
     }
+}
+
+/// Whether a triangle may cover samples of a tile.
+pub(super) fn touches(corners: &[Corner; 3], tile: &Tile, viewport: &Viewport) -> bool {
+    let positions = samples::positions(viewport.samples).iter();
+    positions
+        .map(|position| position.map(|p| p * (SUBPIXELS / 16)))
+        .any(|at| tile_edges(corners, tile, at).is_some())
+}
+
+/// Draws the depth of a triangle that covers a tile and lies within the depths of the view volume, with nothing else
+/// in the tile; whether it is such a triangle. If it is not, nothing is drawn.
+#[inline(always)]
+pub(super) fn fill_tile<S: FragmentLanes>(
+    simd: S,
+    tile: &mut Tile,
+    corners: &[Corner; 3],
+    scale: f64,
+    viewport: &Viewport,
+) -> bool {
+    let positions = samples::positions(viewport.samples);
+    for position in positions {
+        let offset = [position[0] * (SUBPIXELS / 16), position[1] * (SUBPIXELS / 16)];
+        if !tile_edges(corners, tile, offset).is_some_and(|edges| edges == [Edge::default(); 3]) {
+            return false;
+        }
+    }
+    let plane = DepthPlane::of(corners, scale);
+    if !plane.is_within(tile, viewport.height) {
+        return false;
+    }
+    for (depths, position) in tile.depth.chunks_exact_mut(TILE_PIXELS).zip(positions) {
+        let [dx, dy] = position.map(|p| f64::from(p) / 16.0);
+        let mut along = [along_row(simd, 0.0, 0.0); TILE / WIDTH];
+        for (i, along) in along.iter_mut().enumerate() {
+            *along = along_row(simd, whole(tile.left + WIDTH * i) + dx - plane.origin[0], plane.column);
+        }
+        for (y, row) in depths.chunks_exact_mut(TILE).enumerate() {
+            let window_y = viewport.height as f64 - (whole(tile.top + y) + dy);
+            let row_depth = f64x4::splat(simd, plane.at + plane.row * (window_y - plane.origin[1]));
+            for (depths, along) in row.as_chunks_mut::<WIDTH>().0.iter_mut().zip(along) {
+                *depths = (row_depth + along.0).narrow(row_depth + along.1).to_array();
+            }
+        }
+    }
+    true
 }
 
 /// One of the samples of every pixel.
@@ -267,5 +318,16 @@ impl DepthPlane {
             column: (zb * d(c.y, a.y) - zc * d(b.y, a.y)) * scale,
             row: (zc * d(b.x, a.x) - zb * d(c.x, a.x)) * scale,
         }
+    }
+
+    /// Whether all depths of a tile are surely above 0 and below 1: those of its corners are, by more than what
+    /// rounding could change.
+    fn is_within(&self, tile: &Tile, height: usize) -> bool {
+        let ends = |start: usize| [whole(start), whole(start + TILE)];
+        let (columns, rows) = (ends(tile.left), ends(tile.top));
+        let depth = |x: f64, y: f64| {
+            self.at + self.column * (x - self.origin[0]) + self.row * (height as f64 - y - self.origin[1])
+        };
+        columns.iter().all(|&x| rows.iter().all(|&y| (1e-6..1.0 - 1e-6).contains(&depth(x, y))))
     }
 }
