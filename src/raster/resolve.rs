@@ -4,66 +4,84 @@
 //! even to 8 bits.
 
 use super::{
-    fragments::{BLOCK_PIXELS, FragmentList, is_block},
+    fragments::{BLOCK_PIXELS, FragmentList, blocks, is_block},
     framebuffer::Tile,
+    handle::Handle,
     tiling::{TILE, TILE_PIXELS},
 };
 use crate::lanes::rgba8;
 
-/// The pixels of a tile with several samples; empty if there is one.
+/// What the samples of a tile's pixels see, where a pixel has several. Memory that is used for one tile after the
+/// other.
+#[derive(Debug, Default)]
 pub(super) struct Pixels {
-    /// Handles of all samples together: 0 where only the background is seen.
-    pub(super) seen: Vec<u32>,
-    /// Colours times the share of the samples that see them. In f64 the shares, of sixteenths, and their
-    /// sums are exact, so that the mean of equal colours is that colour.
-    pub(super) sums: Vec<[f64; 3]>,
+    /// Per pixel, what all of its samples see; 0 where they differ or see the background.
+    pub(super) agreed: Vec<Handle>,
+    /// The pixels whose samples differ, block by block.
+    pub(super) mixed: Vec<u16>,
+    /// Of each of them, colours times the share of the samples that see them. In f64 the shares, of sixteenths, and
+    /// their sums are exact, so that the mean of equal colours is that colour.
+    sums: Vec<[f64; 3]>,
 }
 
 impl Pixels {
-    /// The pixels with the background's share.
-    pub(super) fn of(tile: &Tile, background: [f32; 3], samples: usize) -> Self {
-        if samples == 1 {
-            return Self { seen: Vec::new(), sums: Vec::new() };
-        }
-        let background = background.map(clamp);
-        let (first, others) = tile.visible.split_at(TILE_PIXELS);
-        let (mut seen, mut free) =
-            (first.to_vec(), first.iter().map(|&h| u8::from(h == 0)).collect::<Vec<_>>());
+    /// Finds out in which pixels the samples differ, and gives those the background's share.
+    #[inline(always)]
+    pub(super) fn set(&mut self, visible: &[Handle], background: [f32; 3]) {
+        let (first, others) = visible.split_at(TILE_PIXELS);
+        let mut differing = [0; TILE_PIXELS];
         for sample in others.chunks_exact(TILE_PIXELS) {
-            for ((seen, free), &handle) in seen.iter_mut().zip(&mut free).zip(sample) {
-                *seen |= handle;
-                *free += u8::from(handle == 0);
+            for ((differing, &first), &handle) in differing.iter_mut().zip(first).zip(sample) {
+                *differing |= first ^ handle;
             }
         }
-        let mut sums = vec![[0.0; 3]; TILE_PIXELS];
-        for (sum, free) in sums.iter_mut().zip(free).filter(|&(_, free)| free > 0) {
-            add(sum, background, f64::from(free) / samples as f64);
+        self.agreed.clear();
+        self.agreed.extend_from_slice(first);
+        for (agreed, &differing) in self.agreed.iter_mut().zip(&differing) {
+            *agreed = if differing == 0 { *agreed } else { 0 };
         }
-        Self { seen, sums }
-    }
-
-    /// Stores the means of the pixels that see something; how many they are.
-    pub(super) fn resolve(self, tile: &mut Tile) -> u64 {
-        let mut covered = 0;
-        for ((color, seen), sum) in tile.color.iter_mut().zip(self.seen).zip(self.sums) {
-            if seen != 0 {
-                #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
-                let mean = sum.map(|channel| channel as f32);
-                *color = rgba8(mean);
-                covered += 1;
+        self.mixed.clear();
+        for block in blocks() {
+            let differs = |pixel: u16| differing[usize::from(pixel)] != 0;
+            if block.iter().fold(false, |any, &pixel| any | differs(pixel)) {
+                self.mixed.extend(block.iter().filter(|&&pixel| differs(pixel)));
             }
         }
-        covered
+        let (background, samples) = (background.map(clamp), visible.len() / TILE_PIXELS);
+        self.sums.clear();
+        for &pixel in &self.mixed {
+            let seen = (0..samples).map(|sample| visible[sample * TILE_PIXELS + usize::from(pixel)]);
+            let free: u8 = seen.map(|handle| u8::from(handle == 0)).sum();
+            let mut sum = [0.0; 3];
+            if free > 0 {
+                add(&mut sum, background, f64::from(free) / samples as f64);
+            }
+            self.sums.push(sum);
+        }
     }
-}
 
-/// Adds the colours of a list to the sums of their pixels, each by its share of the samples.
-#[inline(always)]
-pub(super) fn accumulate(list: &FragmentList, samples: usize, sums: &mut [[f64; 3]]) {
-    let [red, green, blue] = &list.colors;
-    for (i, &pixel) in list.pixels[..list.len].iter().enumerate() {
-        let share = f64::from(list.weights[i]) / samples as f64;
-        add(&mut sums[usize::from(pixel)], [red[i], green[i], blue[i]], share);
+    /// Adds the colours of a list to the sums of their pixels, each by its share of the samples. The list has its
+    /// pixels in the order of `mixed`.
+    pub(super) fn accumulate(&mut self, list: &FragmentList, samples: usize) {
+        let [red, green, blue] = &list.colors;
+        let mut sums = self.mixed.iter().zip(&mut self.sums);
+        let mut last = sums.next();
+        for (i, &pixel) in list.pixels[..list.len].iter().enumerate() {
+            while last.as_ref().is_some_and(|&(&mixed, _)| mixed != pixel) {
+                last = sums.next();
+            }
+            let Some((_, sum)) = &mut last else { return };
+            add(sum, [red[i], green[i], blue[i]], f64::from(list.weights[i]) / samples as f64);
+        }
+    }
+
+    /// Stores the means of the pixels whose samples differ.
+    pub(super) fn resolve(&self, tile: &mut Tile) {
+        for (&pixel, sum) in self.mixed.iter().zip(&self.sums) {
+            #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
+            let mean = sum.map(|channel| channel as f32);
+            tile.color[usize::from(pixel)] = rgba8(mean);
+        }
     }
 }
 

@@ -6,10 +6,12 @@
 
 use std::{mem::take, ops::Range};
 
+use fearless_simd::Simd;
+
 use super::{
     assemble::Chunk,
     draw_call::DrawCall,
-    fragments::{FragmentList, in_blocks},
+    fragments::FragmentList,
     framebuffer::Tile,
     handle::{Handle, pack, unpack},
     interpolate::ShadeInput,
@@ -41,7 +43,11 @@ pub(super) struct TileScene<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     visible: Vec<Handle>,
+    /// Of pixels that see one primitive.
     list: FragmentList,
+    /// Of pixels that may see several.
+    shared: FragmentList,
+    pixels: Pixels,
 }
 
 /// Primitives in a tile up to which it is asked whether one of them is alone.
@@ -80,7 +86,7 @@ pub(super) fn draw_tile(
     let seen = clock.now();
 
     // Shading: the fragment program of every primitive that is seen, and resolve.
-    let (fragments, covered) = shade_tile(tile, &chunks, scene, &mut scratch.list);
+    let (fragments, covered) = shade_tile(tile, &chunks, scene, scratch);
     if scene.ids {
         tile.ids.extend(tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)));
     }
@@ -162,69 +168,71 @@ fn shade_tile(
     tile: &mut Tile,
     chunks: &[usize],
     scene: &TileScene<'_>,
-    list: &mut FragmentList,
+    Scratch { list, shared, pixels, .. }: &mut Scratch,
 ) -> (u64, u64) {
     let samples = scene.viewport.samples;
-    let mut pixels = Pixels::of(tile, scene.background, samples);
-    let mut fragments = 0;
+    if samples > 1 {
+        dispatch_plain!(pixels.set(&tile.visible, scene.background));
+    }
+    let (mut alone, mut together) = (0, 0);
     for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
         let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
-        collect_fragments(tile, first..last + 1, scene, &pixels.seen, list);
-        shade_fragments(tile, scene.chunks[first].call, scene, list);
-        if samples == 1 {
-            dispatch_plain!(resolve::write_colors(tile, list));
-        } else {
-            dispatch_plain!(resolve::accumulate(list, samples, &mut pixels.sums));
+        let (call, handles) = (scene.chunks[first].call, pack(first, 0)..pack(last + 1, 0));
+        list.clear(1);
+        let visible = if samples == 1 { &tile.visible } else { &pixels.agreed };
+        dispatch_plain!(list.list_visible(visible, &handles));
+        list.finish();
+        shade_fragments(tile, call, scene, list);
+        dispatch_plain!(resolve::write_colors(tile, list));
+        alone += list.len as u64;
+        if samples > 1 {
+            dispatch!(simd => list_mixed(simd, tile, &pixels.mixed, &handles, scene, shared));
+            shade_fragments(tile, call, scene, shared);
+            pixels.accumulate(shared, samples);
+            together += shared.len as u64;
         }
-        fragments += list.len as u64;
     }
-    (fragments, if samples == 1 { fragments } else { pixels.resolve(tile) })
+    if samples == 1 {
+        return (alone, alone);
+    }
+    pixels.resolve(tile);
+    (alone + together, alone + pixels.mixed.len() as u64)
 }
 
-/// Lists the pixels in which a primitive of these chunks is seen, each primitive once a pixel.
-fn collect_fragments(
+/// Lists what is seen in pixels whose samples differ, each primitive once a pixel.
+#[inline(always)]
+fn list_mixed<S: Simd>(
+    simd: S,
     tile: &Tile,
-    chunks: Range<usize>,
+    pixels: &[u16],
+    handles: &Range<Handle>,
     scene: &TileScene<'_>,
-    seen: &[u32],
     list: &mut FragmentList,
 ) {
-    let samples = scene.viewport.samples;
-    list.clear(samples);
-    let handles = pack(chunks.start, 0)..pack(chunks.end, 0);
-    if samples == 1 {
-        dispatch_plain!(list.list_visible(&tile.visible, &handles));
-    } else {
-        for pixel in in_blocks().filter(|&pixel| seen[pixel] != 0) {
-            let primitive = tile.visible[pixel];
-            if samples_of(tile, samples, pixel).all(|other| other == primitive) {
-                if handles.contains(&primitive) {
-                    list.add(pixel, primitive, samples);
-                }
-                continue;
-            }
-            let seen = samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen));
-            list.add_pixel(pixel, seen, |primitive| place(tile, pixel, primitive, scene));
-        }
+    list.clear(scene.viewport.samples);
+    for &pixel in pixels {
+        list.add_pixel(
+            pixel,
+            &tile.visible,
+            handles,
+            #[inline(always)]
+            |primitive| place(simd, tile, pixel.into(), primitive, scene),
+        );
     }
     list.finish();
 }
 
 /// Where in a pixel a primitive is shaded, as the list counts places.
-fn place(tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) -> u8 {
+#[inline(always)]
+fn place<S: Simd>(simd: S, tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) -> u8 {
     let (chunk, index) = unpack(primitive);
     let chunk = &scene.chunks[chunk];
     let Some(triangle) = chunk.triangles.get(index) else { return 0 };
     let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
     let pixel = [tile.left + pixel % TILE, tile.top + pixel / TILE];
-    let first = first_covered(&corners, pixel, scene.viewport.samples);
+    let first = first_covered(simd, &corners, pixel, scene.viewport.samples);
     #[expect(clippy::cast_possible_truncation, reason = "at most 16 samples")]
     first.map_or(0, |first| first as u8 + 1)
-}
-
-/// What each sample of a pixel sees.
-fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
-    (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
 }
 
 /// Runs the fragment program of a call over its fragments.

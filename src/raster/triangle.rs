@@ -7,7 +7,9 @@
 //! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
 //! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
-use fearless_simd::{Bytes, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, u32x8};
+use fearless_simd::{
+    Bytes, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, mask64x4, u32x8,
+};
 
 use super::{
     framebuffer::Tile,
@@ -248,28 +250,32 @@ fn depth_test<S: FragmentLanes>(
     *visible = SimdBase::max(u32x8::load_array(simd, *visible), passed).to_array();
 }
 
-/// The first of the samples of a pixel that a triangle covers; `None` if it covers all of them, or none.
-pub(super) fn first_covered(corners: &[Corner; 3], pixel: [usize; 2], samples: usize) -> Option<usize> {
-    let snapped = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
-    let covered = |position: &[i32; 2]| {
-        let at = |axis: usize| {
-            pixel[axis] as i64 * i64::from(SUBPIXELS) + i64::from(position[axis] * (SUBPIXELS / 16))
-        };
-        covers(snapped, [at(0), at(1)])
-    };
-    let positions = samples::positions(samples);
-    let first = positions.iter().position(covered)?;
-    (first > 0 || !positions.iter().all(covered)).then_some(first)
-}
-
-/// Whether a triangle covers a point, in 1/256 pixel, y down: the fill rule of [`tile_edge`].
-fn covers([a, b, c]: [[i32; 2]; 3], point: [i64; 2]) -> bool {
-    [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
-        let (column, row) = (i64::from(from[1] - to[1]), i64::from(to[0] - from[0]));
-        let value = column * (point[0] - i64::from(from[0])) + row * (point[1] - i64::from(from[1]));
-        let inclusive = column > 0 || (column == 0 && row < 0);
-        value >= i64::from(!inclusive)
-    })
+/// The first of several samples of a pixel that a triangle covers; `None` if it covers all of them, or none. The fill
+/// rule is that of [`tile_edge`]; the values of edges are whole numbers below 2^53, and exact.
+#[inline(always)]
+pub(super) fn first_covered<S: Simd>(
+    simd: S,
+    corners: &[Corner; 3],
+    pixel: [usize; 2],
+    samples: usize,
+) -> Option<usize> {
+    let [a, b, c] = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
+    let (mut covered, mut all) = (0, 0);
+    for (first, four) in (0..).step_by(4).zip(samples::positions(samples).as_chunks::<4>().0) {
+        let mut inside = mask64x4::splat(simd, true);
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (column, row) = (f64::from(from[1] - to[1]), f64::from(to[0] - from[0]));
+            let inclusive = column > 0.0 || (column == 0.0 && row < 0.0);
+            let at = |axis: usize| whole(pixel[axis]) * f64::from(SUBPIXELS) - f64::from(from[axis]);
+            let corner = column * at(0) + row * at(1) - f64::from(u8::from(!inclusive));
+            let offsets = |axis: usize| four.map(|position| f64::from(position[axis] * (SUBPIXELS / 16)));
+            let (x, y) = (f64x4::load_array(simd, offsets(0)), f64x4::load_array(simd, offsets(1)));
+            inside &= (x * column + y * row + corner).simd_ge(0.0);
+        }
+        covered |= inside.to_bitmask() << first;
+        all |= 0b1111 << first;
+    }
+    (covered != 0 && covered != all).then(|| covered.trailing_zeros() as usize)
 }
 
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
