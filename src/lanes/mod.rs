@@ -103,7 +103,7 @@ pub trait Lane:
     /// The value without its sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        self.select_less(self.all(0.0), -self, self)
+        (-self).max(self)
     }
 }
 

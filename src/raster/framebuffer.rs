@@ -1,8 +1,13 @@
 //! Where a picture is made: colour and depth per pixel, kept tile by tile so
 //! that each tile is one disjoint piece of memory for one thread.
 
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
 use super::{
     assemble::Chunk,
+    depth::DepthPlane,
     handle::Handle,
     tiling::{TILE, TILE_PIXELS},
     vertex::VertexBuffer,
@@ -34,8 +39,10 @@ pub(super) struct Tile {
     pub(super) top: usize,
     /// Stored colour: red in the lowest byte, green, blue, and alpha, which is always 255.
     pub(super) color: Vec<u32>,
-    /// Window depth per sample; 1 where nothing was drawn.
+    /// Window depth per sample; 1 where nothing was drawn. Not kept where there is a plane.
     pub(super) depth: Vec<f32>,
+    /// Where a triangle covers the tile alone, its depths: they are computed when they are asked for.
+    pub(super) plane: Option<DepthPlane>,
     /// While the tile is drawn, the primitive seen per sample; 0 where nothing was drawn. Its memory is the
     /// drawing thread's, so that it stays in the cache.
     pub(super) visible: Vec<Handle>,
@@ -82,6 +89,7 @@ impl Framebuffer {
                 top: i / columns * TILE,
                 color: vec![0; TILE_PIXELS],
                 depth: vec![1.0; TILE_PIXELS * samples],
+                plane: None,
                 visible: Vec::new(),
                 ids: Vec::new(),
                 cleared: None,
@@ -117,7 +125,23 @@ impl Framebuffer {
 
     /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.
     pub fn depth(&self) -> Vec<f32> {
-        self.rows(|tile| &tile.depth).copied().collect()
+        let tiles: Vec<Cow<'_, [f32]>> = self.tiles.par_iter().map(|tile| self.depths(tile)).collect();
+        let rows = (0..self.height).flat_map(|y| (0..self.columns).map(move |column| (y, column)));
+        let mut depths = Vec::with_capacity(self.width * self.height);
+        for (y, column) in rows {
+            let tile = y / TILE * self.columns + column;
+            let row = y % TILE * TILE;
+            depths.extend_from_slice(&tiles[tile][row..row + TILE.min(self.width - self.tiles[tile].left)]);
+        }
+        depths
+    }
+
+    /// The depths of a tile's pixels.
+    fn depths<'a>(&self, tile: &'a Tile) -> Cow<'a, [f32]> {
+        match &tile.plane {
+            Some(plane) => Cow::Owned(plane.depths([tile.left, tile.top], self.height, self.samples)),
+            None => Cow::Borrowed(&tile.depth),
+        }
     }
 
     /// Ids per pixel, top row first, of the pixel's first sample; empty if they were not asked for.

@@ -21,7 +21,7 @@ use super::{
     stats::TileStats,
     tiling::{TILE, TILE_PIXELS},
     timing::Clock,
-    triangle::{TileBounds, draw_triangle, fill_tile, first_covered, touches},
+    triangle::{TileBounds, covering, draw_triangle, first_covered, touches},
     vertex::VertexBuffer,
 };
 use crate::lanes::{
@@ -62,6 +62,7 @@ pub(super) fn draw_tile(
 ) -> TileStats {
     let started = clock.now();
     let at = tile.position();
+    tile.plane = None;
     let touching = (0..scene.chunks.len()).filter(|&chunk| !scene.chunks[chunk].bins.in_tile(at).is_empty());
     let chunks: Vec<usize> = touching.collect();
     let background = resolve::background(scene.background);
@@ -124,16 +125,15 @@ fn draw_whole(
     let chunk = &scene.chunks[number];
     let triangle = chunk.triangles.get(primitive as usize)?;
     let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
-    let inside = TileBounds::of(triangle.bounds, tile).is_whole()
-        && dispatch!(simd => fill_tile(simd, tile, &corners, triangle.scale, &scene.viewport));
-    if !inside {
+    if !TileBounds::of(triangle.bounds, tile).is_whole() {
         return None;
     }
+    tile.plane = Some(covering(&corners, triangle.scale, tile, &scene.viewport)?);
+    tile.cleared = None;
     let (handle, filled) = (pack(number, primitive), clock.now());
     list.list_whole(handle);
     shade_fragments(tile, chunk.call, scene, list);
     tile.color.copy_from_slice(&list.packed[..TILE_PIXELS]);
-    tile.cleared = None;
     if scene.ids {
         tile.ids.resize(TILE_PIXELS, id(handle, scene));
     }

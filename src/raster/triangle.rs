@@ -12,16 +12,14 @@ use fearless_simd::{
 };
 
 use super::{
+    depth::{DepthPlane, WIDTH, along_row, whole},
     framebuffer::Tile,
     handle::Handle,
     samples,
     setup::{Bounds, Corner, Viewport},
     tiling::{SUBPIXELS, TILE, TILE_PIXELS},
 };
-use crate::lanes::{FragmentLanes, Lane, Pair};
-
-/// Pixels of a row that are tested at a time.
-const WIDTH: usize = 8;
+use crate::lanes::{FragmentLanes, Lane};
 
 /// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,15 +48,6 @@ impl Edge {
     fn most(&self) -> i32 {
         (7 * self.column).max(0)
     }
-}
-
-/// Window depth as a plane: z = `at` + x·`column` + y·`row` at window position (x, y), y up.
-#[derive(Clone, Copy, Debug)]
-struct DepthPlane {
-    origin: [f64; 2],
-    at: f64,
-    column: f64,
-    row: f64,
 }
 
 /// The part of a tile that a primitive may touch: first and last column and row, inclusive.
@@ -112,42 +101,19 @@ pub(super) fn touches(corners: &[Corner; 3], tile: &Tile, viewport: &Viewport) -
         .any(|at| tile_edges(corners, tile, at).is_some())
 }
 
-/// Draws the depth of a triangle that covers a tile and lies within the depths of the view volume, with nothing else
-/// in the tile; whether it is such a triangle. If it is not, nothing is drawn.
-#[inline(always)]
-pub(super) fn fill_tile<S: FragmentLanes>(
-    simd: S,
-    tile: &mut Tile,
+/// The depths of a triangle that covers a tile and surely lies within the depths of the view volume there; `None` if
+/// it does not.
+pub(super) fn covering(
     corners: &[Corner; 3],
     scale: f64,
+    tile: &Tile,
     viewport: &Viewport,
-) -> bool {
-    let positions = samples::positions(viewport.samples);
-    for position in positions {
-        let offset = [position[0] * (SUBPIXELS / 16), position[1] * (SUBPIXELS / 16)];
-        if !tile_edges(corners, tile, offset).is_some_and(|edges| edges == [Edge::default(); 3]) {
-            return false;
-        }
-    }
+) -> Option<DepthPlane> {
+    let positions = samples::positions(viewport.samples).iter();
+    let mut offsets = positions.map(|position| position.map(|p| p * (SUBPIXELS / 16)));
     let plane = DepthPlane::of(corners, scale);
-    if !plane.is_within(tile, viewport.height) {
-        return false;
-    }
-    for (depths, position) in tile.depth.chunks_exact_mut(TILE_PIXELS).zip(positions) {
-        let [dx, dy] = position.map(|p| f64::from(p) / 16.0);
-        let mut along = [along_row(simd, 0.0, 0.0); TILE / WIDTH];
-        for (i, along) in along.iter_mut().enumerate() {
-            *along = along_row(simd, whole(tile.left + WIDTH * i) + dx - plane.origin[0], plane.column);
-        }
-        for (y, row) in depths.chunks_exact_mut(TILE).enumerate() {
-            let window_y = viewport.height as f64 - (whole(tile.top + y) + dy);
-            let row_depth = f64x4::splat(simd, plane.at + plane.row * (window_y - plane.origin[1]));
-            for (depths, along) in row.as_chunks_mut::<WIDTH>().0.iter_mut().zip(along) {
-                *depths = (row_depth + along.0).narrow(row_depth + along.1).to_array();
-            }
-        }
-    }
-    true
+    let covers = offsets.all(|offset| tile_edges(corners, tile, offset) == Some([Edge::default(); 3]));
+    (covers && plane.is_within([tile.left, tile.top], viewport.height)).then_some(plane)
 }
 
 /// One of the samples of every pixel.
@@ -202,28 +168,6 @@ fn draw_sample<S: FragmentLanes>(
             }
         }
     }
-}
-
-/// What the depth plane grows by along eight pixels of a row, the first at `column` from the origin.
-#[inline(always)]
-fn along_row<S: FragmentLanes>(simd: S, column: f64, step: f64) -> Pair<f64x4<S>> {
-    let (first, step) = (f64x4::splat(simd, column), f64x4::splat(simd, step));
-    let columns = [[0.0, 1.0, 2.0, 3.0], [4.0, 5.0, 6.0, 7.0]];
-    Pair(
-        step * (first + f64x4::load_array(simd, columns[0])),
-        step * (first + f64x4::load_array(simd, columns[1])),
-    )
-}
-
-/// A column or row of the picture as a number.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "pictures are at most 16384 wide"
-)]
-fn whole(pixel: usize) -> f64 {
-    f64::from(pixel as i32)
 }
 
 /// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
@@ -309,31 +253,4 @@ fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Opt
         return Some(Edge::default());
     }
     Some(Edge { at: at as i32, column, row })
-}
-
-impl DepthPlane {
-    /// The plane through the unsnapped corners; `scale` is 1 / `window_area`.
-    #[inline(always)]
-    fn of(corners: &[Corner; 3], scale: f64) -> Self {
-        let [a, b, c] = [&corners[0].window, &corners[1].window, &corners[2].window];
-        let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-        let (zb, zc) = (d(b.z, a.z), d(c.z, a.z));
-        Self {
-            origin: [a.x.into(), a.y.into()],
-            at: a.z.into(),
-            column: (zb * d(c.y, a.y) - zc * d(b.y, a.y)) * scale,
-            row: (zc * d(b.x, a.x) - zb * d(c.x, a.x)) * scale,
-        }
-    }
-
-    /// Whether all depths of a tile are surely above 0 and below 1: those of its corners are, by more than what
-    /// rounding could change.
-    fn is_within(&self, tile: &Tile, height: usize) -> bool {
-        let ends = |start: usize| [whole(start), whole(start + TILE)];
-        let (columns, rows) = (ends(tile.left), ends(tile.top));
-        let depth = |x: f64, y: f64| {
-            self.at + self.column * (x - self.origin[0]) + self.row * (height as f64 - y - self.origin[1])
-        };
-        columns.iter().all(|&x| rows.iter().all(|&y| (1e-6..1.0 - 1e-6).contains(&depth(x, y))))
-    }
 }
