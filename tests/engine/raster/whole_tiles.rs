@@ -38,10 +38,10 @@ proptest! {
         let canvas = CANVAS.samples(samples);
         let (alone, twice) = (picture(canvas, &corners, 1), picture(canvas, &corners, 2));
         prop_assert!(alone.ids.iter().all(|&id| id == 1 << 24 | 1), "the picture is not covered");
-        prop_assert_eq!(&alone.ids, &twice.ids);
-        prop_assert_eq!(&alone.rgb, &twice.rgb);
+        prop_assert!(alone.ids == twice.ids, "ids differ");
+        prop_assert!(alone.rgb == twice.rgb, "colours differ");
         let bits = |picture: &Picture| picture.depth.iter().map(|depth| depth.to_bits()).collect::<Vec<_>>();
-        prop_assert_eq!(bits(&alone), bits(&twice));
+        prop_assert!(bits(&alone) == bits(&twice), "depths differ");
         let counts = |picture: &Picture| (picture.stats.fragments, picture.stats.covered);
         prop_assert_eq!(counts(&alone), counts(&twice));
     }
