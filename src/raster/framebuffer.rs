@@ -109,29 +109,36 @@ impl Framebuffer {
 
     /// Stored colours, three bytes a pixel, top row first.
     pub fn rgb(&self) -> Vec<u8> {
-        let bytes = self.rows(|tile| &tile.color).map(|color| color.to_le_bytes());
-        bytes.flat_map(|[r, g, b, _]| [r, g, b]).collect()
+        let mut bytes = Vec::with_capacity(self.width * self.height * 3);
+        for row in self.rows(|tile| &tile.color) {
+            for color in row {
+                let [r, g, b, _] = color.to_le_bytes();
+                bytes.extend_from_slice(&[r, g, b]);
+            }
+        }
+        bytes
     }
 
     /// As [`Framebuffer::rgb`], with 255 after each pixel's blue.
     pub fn rgba(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.width * self.height * 4);
-        self.rows(|tile| &tile.color).for_each(|color| {
-            let [r, g, b, _] = color.to_le_bytes();
-            bytes.extend_from_slice(&[r, g, b, 255]);
-        });
+        for row in self.rows(|tile| &tile.color) {
+            for color in row {
+                let [r, g, b, _] = color.to_le_bytes();
+                bytes.extend_from_slice(&[r, g, b, 255]);
+            }
+        }
         bytes
     }
 
     /// Window depth in 0..=1 per pixel, top row first: that of the pixel's first sample.
     pub fn depth(&self) -> Vec<f32> {
         let tiles: Vec<Cow<'_, [f32]>> = self.tiles.par_iter().map(|tile| self.depths(tile)).collect();
-        let rows = (0..self.height).flat_map(|y| (0..self.columns).map(move |column| (y, column)));
         let mut depths = Vec::with_capacity(self.width * self.height);
-        for (y, column) in rows {
-            let tile = y / TILE * self.columns + column;
-            let row = y % TILE * TILE;
-            depths.extend_from_slice(&tiles[tile][row..row + TILE.min(self.width - self.tiles[tile].left)]);
+        for y in 0..self.height {
+            for (column, tile) in tiles[y / TILE * self.columns..][..self.columns].iter().enumerate() {
+                depths.extend_from_slice(&tile[y % TILE * TILE..][..TILE.min(self.width - column * TILE)]);
+            }
         }
         depths
     }
@@ -149,19 +156,19 @@ impl Framebuffer {
         if self.tiles.iter().all(|tile| tile.ids.is_empty()) {
             return Vec::new();
         }
-        self.rows(|tile| &tile.ids).copied().collect()
+        self.rows(|tile| &tile.ids).flatten().copied().collect()
     }
 
-    /// The values of one buffer in picture order.
+    /// The values of one buffer in picture order: a slice for each row of each tile.
     fn rows<'a, T: 'a>(
         &'a self,
         buffer: impl Fn(&'a Tile) -> &'a Vec<T> + Copy,
-    ) -> impl Iterator<Item = &'a T> {
+    ) -> impl Iterator<Item = &'a [T]> {
         (0..self.height).flat_map(move |y| {
-            (0..self.columns).flat_map(move |column| {
+            (0..self.columns).map(move |column| {
                 let tile = &self.tiles[y / TILE * self.columns + column];
                 let row = y % TILE * TILE;
-                buffer(tile)[row..row + TILE.min(self.width - tile.left)].iter()
+                &buffer(tile)[row..row + TILE.min(self.width - tile.left)]
             })
         })
     }

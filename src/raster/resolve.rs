@@ -35,10 +35,10 @@ impl Pixels {
                 *differing |= first ^ handle;
             }
         }
-        self.agreed.clear();
-        self.agreed.extend_from_slice(first);
-        for (agreed, &differing) in self.agreed.iter_mut().zip(&differing) {
-            *agreed = if differing == 0 { *agreed } else { 0 };
+        // Every number is written: of one that may stay the compiler makes a masked store.
+        self.agreed.resize(TILE_PIXELS, 0);
+        for ((agreed, &first), &differing) in self.agreed.iter_mut().zip(first).zip(&differing) {
+            *agreed = if differing == 0 { first } else { 0 };
         }
         self.mixed.clear();
         for block in blocks() {

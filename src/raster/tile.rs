@@ -186,7 +186,9 @@ fn shade_tile(
         dispatch_plain!(resolve::write_colors(tile, list));
         alone += list.len as u64;
         if samples > 1 {
+            shared.clear(samples);
             dispatch!(simd => list_mixed(simd, tile, &pixels.mixed, &handles, scene, shared));
+            shared.finish();
             shade_fragments(tile, call, scene, shared);
             pixels.accumulate(shared, samples);
             together += shared.len as u64;
@@ -199,7 +201,7 @@ fn shade_tile(
     (alone + together, alone + pixels.mixed.len() as u64)
 }
 
-/// Lists what is seen in pixels whose samples differ, each primitive once a pixel.
+/// Adds what is seen in pixels whose samples differ to a list, each primitive once a pixel.
 #[inline(always)]
 fn list_mixed<S: Simd>(
     simd: S,
@@ -209,7 +211,6 @@ fn list_mixed<S: Simd>(
     scene: &TileScene<'_>,
     list: &mut FragmentList,
 ) {
-    list.clear(scene.viewport.samples);
     for &pixel in pixels {
         list.add_pixel(
             pixel,
@@ -219,7 +220,6 @@ fn list_mixed<S: Simd>(
             |primitive| place(simd, tile, pixel.into(), primitive, scene),
         );
     }
-    list.finish();
 }
 
 /// Where in a pixel a primitive is shaded, as the list counts places.
