@@ -1,6 +1,7 @@
 //! A picture to sample from: decoded once, then a plain array of texels.
 
 use std::io::Cursor;
+use std::sync::OnceLock;
 
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
@@ -18,12 +19,25 @@ pub const MAX_TEXELS: u64 = 1 << 26;
 const MAX_DECODER_BYTES: u64 = 16 * MAX_TEXELS;
 
 /// A picture of `width` × `height` texels. The first row is the top one (v = 0 in texture space).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Texture {
     width: usize,
     height: usize,
     texels: Vec<[f32; 4]>,
     transparent: bool,
+    /// Red alone, once it was asked for.
+    red: OnceLock<Vec<f32>>,
+}
+
+impl PartialEq for Texture {
+    /// What was asked for makes no difference.
+    fn eq(&self, other: &Self) -> bool {
+        let Self { width, height, texels, transparent, red: _ } = self;
+        *width == other.width
+            && *height == other.height
+            && *texels == other.texels
+            && *transparent == other.transparent
+    }
 }
 
 impl Texture {
@@ -72,7 +86,7 @@ impl Texture {
         let (width, height) = (image.width() as usize, image.height() as usize);
         let unit = |sample: u16| f32::from(sample) / 65535.0;
         let texels = image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]).collect();
-        Self { width, height, texels, transparent }
+        Self { width, height, texels, transparent, red: OnceLock::new() }
     }
 
     /// A texture of `width` × `height` from RGB in 0..=1, row by row from the top.
@@ -85,7 +99,7 @@ impl Texture {
             return Err(Error::new(Kind::Internal, message));
         }
         let texels = rgb.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
-        Ok(Self { width, height, texels, transparent: false })
+        Ok(Self { width, height, texels, transparent: false, red: OnceLock::new() })
     }
 
     /// Whether the file had transparent pixels, which are drawn opaque.
@@ -116,6 +130,12 @@ impl Texture {
     /// All texels, row by row from the top.
     pub fn texels(&self) -> &[[f32; 4]] {
         &self.texels
+    }
+
+    /// The red of all texels, as height maps are read: a quarter of the memory to look into. It is computed when it
+    /// is asked for the first time.
+    pub fn red(&self) -> &[f32] {
+        self.red.get_or_init(|| self.texels.iter().map(|&[red, ..]| red).collect())
     }
 }
 

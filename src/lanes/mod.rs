@@ -10,6 +10,7 @@ pub mod level;
 mod operations;
 mod pair;
 mod scalar;
+mod texels;
 mod vector;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -18,6 +19,7 @@ use fearless_simd::Simd;
 
 pub use pair::Pair;
 pub use scalar::F64;
+pub(crate) use scalar::rgba8;
 
 /// What [`Lane`] asks of a type that is a [`Part`] itself.
 macro_rules! is_its_only_part {
@@ -101,7 +103,7 @@ pub trait Lane:
     /// The value without its sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        self.select_less(self.all(0.0), -self, self)
+        (-self).max(self)
     }
 }
 
@@ -118,6 +120,8 @@ pub const MAX_LANES: usize = 32;
 pub trait Part: Lane<Part = Self> {
     /// How many fragments it holds: a power of two, at most [`MAX_WIDTH`].
     const WIDTH: usize;
+    /// A bit for each of them.
+    const ALL_LANES: u32 = (1 << Self::WIDTH) - 1;
     /// The same lanes in binary64, in which positions in the window are computed.
     type Double: Copy + Add<Output = Self::Double> + Sub<Output = Self::Double> + Mul<Output = Self::Double>;
     /// The same lanes as whole numbers.
@@ -137,10 +141,30 @@ pub trait Part: Lane<Part = Self> {
     fn narrow(double: Self::Double) -> Self;
     /// Lanes that are whole numbers as integers; too large ones saturate, NaN is 0.
     fn to_whole(self) -> Self::Whole;
+    /// Writes red, green and blue in 0..=1 to the first [`Part::WIDTH`] elements of `out`: 8 bits each, rounded half
+    /// to even, red lowest, and 255 on top.
+    fn store_rgba8(rgb: [Self; 3], out: &mut [u32]);
+    /// A bit for each lane, the first one lowest, which is 1 where `keys` is `key`. There are [`Part::WIDTH`] keys.
+    fn lanes_with(token: Self::Token, keys: &[u32], key: u32) -> u32;
     /// `other` in the lanes where `keys` is `key`, else `self`. There are [`Part::WIDTH`] keys.
     fn replace(self, keys: &[u32], key: u32, other: Self) -> Self;
+    /// As [`Part::to_whole`], but a number below -2³¹, from 2³¹ on, or NaN may become any number that is
+    /// not among 0..2³⁰, or what it is there.
+    fn whole_if_small(self) -> Self::Whole;
     /// Red, green and blue of a texel in each lane: lane i has that of `texel(i)`.
     fn transpose(token: Self::Token, texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3];
+    /// Red, green and blue between four texels in each lane: the one at `places`, the one after it, and both `down`
+    /// further on; the weights are those of the second of two, along the row and down. a + (b - a)·f along both rows,
+    /// then down.
+    ///
+    /// # Panics
+    /// If one of the texels is not there.
+    fn bilinear(texels: &[[f32; 4]], places: Self::Whole, down: u32, weights: [Self; 2]) -> [Self; 3];
+    /// As [`Part::bilinear`], of one channel alone.
+    ///
+    /// # Panics
+    /// If one of the texels is not there.
+    fn bilinear_plane(texels: &[f32], places: Self::Whole, down: u32, weights: [Self; 2]) -> Self;
 }
 
 /// Whole numbers side by side.
@@ -155,6 +179,8 @@ pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, 
     fn select_equal(self, other: Self, then: Self, otherwise: Self) -> Self;
     /// Whether all lanes are at least 0 and less than `end`.
     fn within(self, end: i32) -> bool;
+    /// The number in all lanes, if it is the same.
+    fn same(self) -> Option<i32>;
     /// `f` of every lane.
     fn each(self, f: impl FnMut(i32) -> i32) -> Self;
     /// One lane.

@@ -78,6 +78,8 @@ fn of_parts<P: Part>(token: P::Token) {
             let cast = from(i + first) as i32;
             assert_eq!(value.to_whole().lane(i), cast);
             assert_eq!(value.to_whole().each(|i| i / 2).lane(i), cast / 2);
+            let small = value.whole_if_small().lane(i);
+            assert!(small == cast || !(0..1 << 30).contains(&small), "{small} for {cast}");
             let (low, high) =
                 (Whole::max(value.to_whole().all(-5), value.to_whole()).lane(i), Ord::max(cast, -5));
             assert_eq!(low, high);
@@ -102,10 +104,47 @@ fn of_parts<P: Part>(token: P::Token) {
     assert!((0..P::WIDTH).all(|i| one.lane(i) == 1.0 && (third.lane(i) == 1.0) == (i % 2 == 1)));
 }
 
+/// Texels mixed in every lane are those of the formula.
+fn of_texels<P: Part>(token: P::Token) {
+    let number = |i: usize| u8::try_from(i % 251).map_or(0.0, f32::from) * 0.37;
+    let texels: Vec<[f32; 4]> =
+        (0..70).map(|i| [number(i), number(3 * i + 7), number(17 * i), 1.0]).collect();
+    let red: Vec<f32> = texels.iter().map(|texel| texel[0]).collect();
+    let weight = |i: usize| number(5 * i + 1) / 93.0;
+    let (right, lower) = (P::from_fn(token, weight), P::from_fn(token, |i| weight(i + 16)));
+    // The last one reads the last texel.
+    let places = P::from_fn(token, |i| number(11 * (i + 1)).min(58.0).floor()).to_whole();
+    let places = places.each(|place| if place == places.lane(P::WIDTH - 1) { 58 } else { place });
+    let mixed = P::bilinear(&texels, places, 10, [right, lower]);
+    for (channel, mixed) in
+        mixed.into_iter().chain([P::bilinear_plane(&red, places, 10, [right, lower])]).enumerate()
+    {
+        for i in 0..P::WIDTH {
+            let texel = |further: usize| texels[places.lane(i) as usize + further][channel % 3];
+            let mix = |a: P, b: P, f: P| a + (b - a) * f;
+            let all = |further: usize| P::splat(token, texel(further));
+            let expected = mix(mix(all(0), all(1), right), mix(all(10), all(11), right), lower);
+            assert_eq!(mixed.lane(i).to_bits(), expected.lane(i).to_bits(), "channel {channel}, lane {i}");
+        }
+    }
+}
+
+/// A number is found to be the same in all lanes only where it is.
+fn of_wholes<P: Part>(token: P::Token) {
+    let same = P::splat(token, 3.0).to_whole();
+    assert_eq!(same.same(), Some(3));
+    for other in 0..P::WIDTH {
+        let differing = P::from_fn(token, |i| if i == other { 4.0 } else { 3.0 }).to_whole();
+        assert_eq!(differing.same(), (P::WIDTH == 1).then_some(4));
+    }
+}
+
 /// Everything at a level.
 fn all<S: FragmentLanes>(simd: S) {
     operations::<S::Lanes>(simd);
     of_parts::<<S::Lanes as Lane>::Part>(simd);
+    of_texels::<<S::Lanes as Lane>::Part>(simd);
+    of_wholes::<<S::Lanes as Lane>::Part>(simd);
 }
 
 #[test]
@@ -113,5 +152,8 @@ fn every_operation_is_that_of_plain_numbers_at_every_level() {
     Level::for_each(|_| dispatch!(simd => all(simd)));
     operations::<f32>(());
     of_parts::<f32>(());
+    of_texels::<f32>(());
+    of_texels::<F64>(());
+    of_wholes::<f32>(());
     of_parts::<F64>(());
 }

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Part, Whole, is_its_only_part};
+use super::{Lane, Part, Whole, is_its_only_part, texels::square};
 
 /// A number of binary64. A type of its own, because `f64` has no operations with plain `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,8 +119,35 @@ macro_rules! one_lane {
                 $value as i32
             }
             #[inline(always)]
+            fn store_rgba8(rgb: [Self; 3], out: &mut [u32]) {
+                out[0] = rgba8(rgb.map(|$number| $value as f32));
+            }
+            #[inline(always)]
+            fn lanes_with((): (), keys: &[u32], key: u32) -> u32 {
+                u32::from(keys[0] == key)
+            }
+            #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {
                 if keys[0] == key { other } else { self }
+            }
+            #[inline(always)]
+            fn whole_if_small(self) -> i32 {
+                self.to_whole()
+            }
+            #[inline(always)]
+            fn bilinear(texels: &[[f32; 4]], place: i32, down: u32, [right, lower]: [Self; 2]) -> [Self; 3] {
+                let square = square(texels, place, down);
+                [0, 1, 2].map(|channel: usize| {
+                    let [a, b, c, d] = square.map(|texel| Self::from(texel[channel]));
+                    let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
+                    top + (bottom - top) * lower
+                })
+            }
+            #[inline(always)]
+            fn bilinear_plane(texels: &[f32], place: i32, down: u32, [right, lower]: [Self; 2]) -> Self {
+                let [a, b, c, d] = square(texels, place, down).map(Self::from);
+                let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
+                top + (bottom - top) * lower
             }
             #[inline(always)]
             fn transpose((): (), mut texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3] {
@@ -137,6 +164,16 @@ one_lane!(f32, rounded, number => number);
 #[inline(always)]
 fn rounded(value: f64) -> f32 {
     value as f32
+}
+
+/// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.
+pub(super) const WHOLE_STEPS: f32 = 8_388_608.0;
+
+/// A colour in 0..=1 with 8 bits of each channel, rounded half to even, red lowest, and 255 on top.
+#[inline(always)]
+pub(crate) fn rgba8(color: [f32; 3]) -> u32 {
+    let [r, g, b] = color.map(|c| (c * 255.0 + WHOLE_STEPS).to_bits() & 0xFF);
+    r | g << 8 | b << 16 | 255 << 24
 }
 
 impl Whole for i32 {
@@ -159,6 +196,10 @@ impl Whole for i32 {
     #[inline(always)]
     fn within(self, end: i32) -> bool {
         (0..end).contains(&self)
+    }
+    #[inline(always)]
+    fn same(self) -> Option<i32> {
+        Some(self)
     }
     #[inline(always)]
     fn each(self, mut f: impl FnMut(i32) -> i32) -> i32 {

@@ -1,14 +1,20 @@
 //! One vector of 4, 8 or 16 numbers.
 
 use fearless_simd::{
-    Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, f32x4, f32x8, f32x16, f64x2, f64x4,
-    f64x8, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16,
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, f32x4, f32x8, f32x16, f64x2,
+    f64x4, f64x8, i32x4, i32x8, i32x16, u32x4, u32x8, u32x16,
 };
 
-use super::{FragmentLanes, Lane, Pair, Part, Whole, is_its_only_part};
+use super::{
+    FragmentLanes, Lane, Pair, Part, Whole, is_its_only_part,
+    scalar::WHOLE_STEPS,
+    texels::{
+        bilinear_4, bilinear_8, bilinear_16, bilinear_plane_4, bilinear_plane_8, bilinear_plane_16, transpose,
+    },
+};
 
 macro_rules! vector {
-    ($vector:ident, $double:ident, $whole:ident, $key:ident, $width:literal, $transpose:ident) => {
+    ($vector:ident, $double:ident, $whole:ident, $key:ident, $width:literal, $transpose:ident, $bilinear:ident, $plane:ident) => {
         impl<S: FragmentLanes> Lane for $vector<S> {
             type Token = S;
             is_its_only_part!();
@@ -87,6 +93,20 @@ macro_rules! vector {
                 self.to_int_precise()
             }
             #[inline(always)]
+            fn store_rgba8([red, green, blue]: [Self; 3], out: &mut [u32]) {
+                // The addition rounds, and leaves the result in the low bits.
+                let red = (red * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let green = (green * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let blue = (blue * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                let packed = red | green << 8 | blue << 16 | 255 << 24;
+                packed.store_slice(&mut out[..$width]);
+            }
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
+            fn lanes_with(token: S, keys: &[u32], key: u32) -> u32 {
+                $key::from_slice(token, &keys[..$width]).simd_eq($key::splat(token, key)).to_bitmask() as u32
+            }
+            #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {
                 let keys = $key::from_slice(self.simd, &keys[..$width]);
                 keys.simd_eq($key::splat(self.simd, key)).select(other, self)
@@ -94,6 +114,18 @@ macro_rules! vector {
             #[inline(always)]
             fn transpose(token: S, mut texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3] {
                 $transpose(token, 0, &mut texel)
+            }
+            #[inline(always)]
+            fn whole_if_small(self) -> $whole<S> {
+                self.to_int()
+            }
+            #[inline(always)]
+            fn bilinear(texels: &[[f32; 4]], places: $whole<S>, down: u32, weights: [Self; 2]) -> [Self; 3] {
+                $bilinear(texels, places, down, weights)
+            }
+            #[inline(always)]
+            fn bilinear_plane(texels: &[f32], places: $whole<S>, down: u32, weights: [Self; 2]) -> Self {
+                $plane(texels, places, down, weights)
             }
         }
 
@@ -119,6 +151,11 @@ macro_rules! vector {
                 (self.simd_ge(0) & self.simd_lt(end)).all_true()
             }
             #[inline(always)]
+            fn same(self) -> Option<i32> {
+                let first = self[0];
+                self.simd_eq(first).all_true().then_some(first)
+            }
+            #[inline(always)]
             fn each(self, mut f: impl FnMut(i32) -> i32) -> Self {
                 let mut lanes = self.to_array();
                 for lane in &mut lanes {
@@ -133,21 +170,19 @@ macro_rules! vector {
         }
     };
 }
-vector!(f32x4, f64x2, i32x4, u32x4, 4, transpose_4);
-vector!(f32x8, f64x4, i32x8, u32x8, 8, transpose_8);
-vector!(f32x16, f64x8, i32x16, u32x16, 16, transpose_16);
+vector!(f32x4, f64x2, i32x4, u32x4, 4, transpose_4, bilinear_4, bilinear_plane_4);
+vector!(f32x8, f64x4, i32x8, u32x8, 8, transpose_8, bilinear_8, bilinear_plane_8);
+vector!(f32x16, f64x8, i32x16, u32x16, 16, transpose_16, bilinear_16, bilinear_plane_16);
 
 /// Red, green and blue of the texels `first..first + 4`.
 #[inline(always)]
 fn transpose_4<S: Simd>(token: S, first: usize, texel: &mut impl FnMut(usize) -> [f32; 4]) -> [f32x4<S>; 3] {
-    let [a, b, c, d] = [
+    transpose([
         f32x4::load_array(token, texel(first)),
         f32x4::load_array(token, texel(first + 1)),
         f32x4::load_array(token, texel(first + 2)),
         f32x4::load_array(token, texel(first + 3)),
-    ];
-    let (even, odd) = (a.zip_low(c), b.zip_low(d));
-    [even.zip_low(odd), even.zip_high(odd), a.zip_high(c).zip_low(b.zip_high(d))]
+    ])
 }
 
 macro_rules! transpose {

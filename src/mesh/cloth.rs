@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::{BAND, Mesh, grid_triangles, in_plane, index, round, to_f32, unit_or};
+use super::{BAND, Mesh, in_plane, index, round, set_grid_triangles, to_f32, unit_or};
 use crate::cloth::Points;
 use crate::scene::{Cloth, Needs, Vec3};
 
@@ -18,40 +18,52 @@ impl Mesh {
     /// It may when a side of the cloth has fewer than two points, or there are not as many `points` as the
     /// cloth has; the cloth of a scene that was loaded has two a side or more.
     pub fn cloth(cloth: &Cloth, points: &Points, needs: Needs) -> Self {
+        let mut mesh = Self::default();
+        mesh.set_cloth(cloth, points, needs);
+        mesh
+    }
+
+    /// Becomes [`Mesh::cloth`], in the memory of what it was.
+    pub(crate) fn set_cloth(&mut self, cloth: &Cloth, points: &Points, needs: Needs) {
         let (w, h) = (cloth.num_width_points, cloth.num_height_points);
-        let normals_of = |read: bool, f: &(dyn Fn(usize, Vec3) -> Vec3 + Sync)| {
-            if read { per_normal(points, w, h, f) } else { Vec::new() }
-        };
-        Self {
-            positions: (0..points.len())
-                .into_par_iter()
-                .with_min_len(PIECE)
-                .map(|i| round(points.get(i)))
-                .collect(),
-            normals: normals_of(needs.normal || needs.tangent, &|_, normal| normal),
-            tangents: normals_of(needs.tangent, &|i, normal| row_tangent(points, w, i, &normal)),
-            uvs: if needs.uv { grid_uvs(w, h) } else { Vec::new() },
-            triangles: grid_triangles(w, h, |a, b, c, d| [[a, c, b], [b, c, d]]),
+        self.positions.resize(points.len(), [0.0; 3]);
+        self.positions.par_chunks_mut(PIECE).enumerate().for_each(|(piece, positions)| {
+            for (i, position) in (piece * PIECE..).zip(positions) {
+                *position = round(points.get(i));
+            }
+        });
+        self.normals.resize(if needs.normal || needs.tangent { w * h } else { 0 }, [0.0; 3]);
+        set_per_normal(&mut self.normals, points, w, h, |_, normal| normal);
+        self.tangents.resize(if needs.tangent { w * h } else { 0 }, [0.0; 3]);
+        set_per_normal(&mut self.tangents, points, w, h, |i, normal| row_tangent(points, w, i, &normal));
+        self.uvs.clear();
+        if needs.uv {
+            set_grid_uvs(&mut self.uvs, w, h);
         }
+        set_grid_triangles(&mut self.triangles, w, h, |a, b, c, d| [[a, c, b], [b, c, d]]);
     }
 }
 
 /// uv = (x / (W-1), y / (H-1)), row-major.
-fn grid_uvs(w: usize, h: usize) -> Vec<[f32; 2]> {
+fn set_grid_uvs(uvs: &mut Vec<[f32; 2]>, w: usize, h: usize) {
     let fraction = |k: usize, n: usize| to_f32(f64::from(index(k)) / f64::from(index(n - 1)));
-    (0..w * h).map(|i| [fraction(i % w, w), fraction(i / w, h)]).collect()
+    let us: Vec<f32> = (0..w).map(|x| fraction(x, w)).collect();
+    for y in 0..h {
+        let v = fraction(y, h);
+        uvs.extend(us.iter().map(|&u| [u, v]));
+    }
 }
 
 /// Area-weighted vertex normals: the unit sum of the cross products of the triangles around each
 /// point, in triangle order. A point whose triangles have no area gets the normal +y.
 /// What `attribute` makes of each point's number and normal is rounded.
-fn per_normal(
+fn set_per_normal(
+    attributes: &mut [[f32; 3]],
     points: &Points,
     w: usize,
     h: usize,
     attribute: impl Fn(usize, Vec3) -> Vec3 + Sync,
-) -> Vec<[f32; 3]> {
-    let mut attributes = vec![[0.0; 3]; w * h];
+) {
     attributes.par_chunks_mut(w * BAND).enumerate().for_each(|(band, attributes)| {
         let first = band * BAND;
         let (mut above, mut below) = (crosses(w), crosses(w));
@@ -69,7 +81,6 @@ fn per_normal(
             std::mem::swap(&mut above, &mut below);
         }
     });
-    attributes
 }
 
 /// Cross products of both triangles of each cell in a row of cells, all zero. The first and the last stay

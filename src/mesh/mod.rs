@@ -84,13 +84,14 @@ impl Mesh {
 
 /// Two triangles per cell of a `columns` × `rows` grid of vertices, cells row-major, made by
 /// `split` from the corners (x, y), (x+1, y), (x, y+1), (x+1, y+1).
-fn grid_triangles(
+fn set_grid_triangles(
+    triangles: &mut Vec<[u32; 3]>,
     columns: usize,
     rows: usize,
     split: impl Fn(u32, u32, u32, u32) -> [[u32; 3]; 2] + Sync,
-) -> Vec<[u32; 3]> {
+) {
     let cells = columns - 1;
-    let mut triangles = vec![[0; 3]; 2 * cells * (rows - 1)];
+    triangles.resize(2 * cells * (rows - 1), [0; 3]);
     triangles.par_chunks_mut(2 * cells * BAND).enumerate().for_each(|(band, triangles)| {
         for (i, pair) in (band * BAND * cells..).zip(triangles.chunks_exact_mut(2)) {
             let a = index(i / cells * columns + i % cells);
@@ -98,7 +99,6 @@ fn grid_triangles(
             pair.copy_from_slice(&split(a, a + 1, c, c + 1));
         }
     });
-    triangles
 }
 
 /// The report's first direction inside a plane of unit normal n: unit, unless n is (1,1,1)/√3,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Mesh, Placement, grid_triangles, round, to_f32};
+use super::{Mesh, Placement, round, set_grid_triangles, to_f32};
 use crate::math::{cos, sin};
 use crate::scene::{Needs, Sphere};
 
@@ -45,7 +45,7 @@ impl Mesh {
             }
         }
         let (columns, rows) = (lon as usize + 1, lat as usize + 1);
-        mesh.triangles = grid_triangles(columns, rows, |a, b, c, d| [[a, c, d], [d, b, a]]);
+        set_grid_triangles(&mut mesh.triangles, columns, rows, |a, b, c, d| [[a, c, d], [d, b, a]]);
         mesh
     }
 }

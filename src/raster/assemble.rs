@@ -239,6 +239,13 @@ impl Chunk {
         if vertex < own { vertices.corners[vertex] } else { self.made[vertex - own] }
     }
 
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub(super) fn corners(&self, triangle: &Triangle, vertices: &VertexBuffer) -> [Corner; 3] {
+        let [a, b, c] = triangle.vertices;
+        [self.corner(a, vertices), self.corner(b, vertices), self.corner(c, vertices)]
+    }
+
     /// The varyings of a vertex.
     #[inline(always)]
     pub(super) fn varyings_of<'a, const N: usize>(

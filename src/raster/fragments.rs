@@ -26,11 +26,20 @@ pub(super) fn is_block(pixels: &[u16; BLOCK_PIXELS]) -> bool {
     pixels.iter().zip(BLOCK).fold(0, differing) == 0
 }
 
-/// The pixels of a tile, block by block.
-pub(super) fn in_blocks() -> impl Iterator<Item = usize> {
-    let rows = (0..TILE_PIXELS).step_by(2 * TILE);
-    let firsts = rows.flat_map(|row| (row..row + TILE).step_by(4));
-    firsts.flat_map(|first| BLOCK.map(|offset| first + usize::from(offset)))
+/// The pixels of each block of a tile.
+#[inline(always)]
+pub(super) fn blocks() -> impl Iterator<Item = [u16; BLOCK_PIXELS]> {
+    (0..TILE_PIXELS / BLOCK_PIXELS).map(
+        #[inline(always)]
+        |block| {
+            let (row, column) = (block / (TILE / 4), block % (TILE / 4));
+            let first = pixel_number(2 * TILE * row + 4 * column);
+            BLOCK.map(
+                #[inline(always)]
+                |offset| first + offset,
+            )
+        },
+    )
 }
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
@@ -48,8 +57,13 @@ pub(super) struct FragmentList {
     /// Where in the pixel it is shaded: 0 for its centre, else one more than the number of a sample. Empty where
     /// pixels have one sample.
     pub(super) places: Vec<u8>,
-    /// Colours, one plane a channel, 0..=1: what the fragment stage puts out.
+    /// Whether several fragments may share a pixel. Then their colours are wanted as they are, else as they are
+    /// stored.
+    pub(super) shares_pixels: bool,
+    /// Colours, one plane a channel, 0..=1: what the fragment stage puts out if pixels are shared.
     pub(super) colors: [Vec<f32>; 3],
+    /// Stored colours: what it puts out if they are not.
+    pub(super) packed: Vec<u32>,
 }
 
 impl FragmentList {
@@ -62,9 +76,22 @@ impl FragmentList {
         self.weights.resize(room, 0);
         self.primitives.resize(room, 0);
         self.places.resize(if samples == 1 { 0 } else { room }, 0);
+        self.shares_pixels = samples > 1;
+        let (shared, alone) = if samples == 1 { (0, room) } else { (room, 0) };
         for plane in &mut self.colors {
-            plane.resize(room, 0.0);
+            plane.resize(shared, 0.0);
         }
+        self.packed.resize(alone, 0);
+    }
+
+    /// Lists all pixels of a tile, row by row, for one primitive that covers them.
+    pub(super) fn list_whole(&mut self, primitive: Handle) {
+        self.clear(1);
+        self.len = TILE_PIXELS;
+        for (pixel, number) in self.pixels.iter_mut().zip(0..) {
+            *pixel = number;
+        }
+        self.primitives.fill(primitive);
     }
 
     /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.
@@ -103,35 +130,29 @@ impl FragmentList {
         self.len = len;
     }
 
-    /// Adds the primitives that the samples of a pixel see, each once, to be shaded at its `place`.
+    /// Adds the primitives in `handles` that the samples of a pixel see, each once, to be shaded at its `place`.
+    #[inline(always)]
     pub(super) fn add_pixel(
         &mut self,
-        pixel: usize,
-        seen: impl Iterator<Item = Handle>,
+        pixel: u16,
+        visible: &[Handle],
+        handles: &Range<Handle>,
         place: impl Fn(Handle) -> u8,
     ) {
         let first = self.len;
-        for primitive in seen {
+        for &primitive in visible[usize::from(pixel)..].iter().step_by(TILE_PIXELS) {
+            if !handles.contains(&primitive) {
+                continue;
+            }
             let known = &self.primitives[first..self.len];
             if let Some(known) = known.iter().position(|&other| other == primitive) {
                 self.weights[first + known] += 1;
-            } else {
-                self.add(pixel, primitive, 1);
+                continue;
             }
+            (self.pixels[self.len], self.primitives[self.len]) = (pixel, primitive);
+            (self.weights[self.len], self.places[self.len]) = (1, place(primitive));
+            self.len += 1;
         }
-        for i in first..self.len {
-            self.places[i] = place(self.primitives[i]);
-        }
-    }
-
-    /// Adds a primitive that `samples` (at most 16) of several samples of a pixel see, to be shaded at the centre.
-    #[expect(clippy::cast_possible_truncation, reason = "at most 16")]
-    pub(super) fn add(&mut self, pixel: usize, primitive: Handle, samples: usize) {
-        self.pixels[self.len] = pixel_number(pixel);
-        self.weights[self.len] = samples as u8;
-        self.primitives[self.len] = primitive;
-        self.places[self.len] = 0;
-        self.len += 1;
     }
 
     /// Fills the lists up.

@@ -54,22 +54,17 @@ impl<'a, const N: usize> Interpolator<'a, N> {
             return result;
         }
         let position = self.positions::<P>(token, pixels, places);
-        let (first, mut previous) = (primitives[0], 0);
-        let alone = primitives.iter().fold(true, |all, &other| all & (other == first));
-        for (i, &primitive) in primitives.iter().enumerate().take(if alone { 1 } else { P::WIDTH }) {
-            // Three triangles or more may be interpolated again, which changes nothing.
-            if primitive == previous || (i > 0 && primitive == first) {
-                continue;
-            }
+        let mut rest = P::lanes_with(token, primitives, primitives[0]);
+        result = self.plane(primitives[0]).interpolate::<P>(token, position);
+        rest ^= P::ALL_LANES;
+        // A bit for each lane that waits for its triangle: no branch that depends on a single lane.
+        while rest != 0 {
+            let primitive = primitives[rest.trailing_zeros() as usize];
             let at = self.plane(primitive).interpolate::<P>(token, position);
-            if i == 0 {
-                result = at;
-            } else {
-                for (result, at) in result.iter_mut().zip(at) {
-                    *result = result.replace(primitives, primitive, at);
-                }
+            for (result, at) in result.iter_mut().zip(at) {
+                *result = result.replace(primitives, primitive, at);
             }
-            previous = primitive;
+            rest &= !P::lanes_with(token, primitives, primitive);
         }
         result
     }

@@ -14,6 +14,7 @@ mod handle;
 mod bin;
 mod primitives;
 mod assemble;
+mod depth;
 mod framebuffer;
 mod triangle;
 mod line;

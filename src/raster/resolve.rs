@@ -3,82 +3,94 @@
 //! A pixel's colour is the mean over its samples of the clamped linear colours, rounded half to
 //! even to 8 bits.
 
-use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8, u32x8};
-
 use super::{
-    fragments::{BLOCK_PIXELS, FragmentList, is_block},
+    fragments::{BLOCK_PIXELS, FragmentList, blocks, is_block},
     framebuffer::Tile,
+    handle::Handle,
     tiling::{TILE, TILE_PIXELS},
 };
+use crate::lanes::rgba8;
 
-/// The pixels of a tile with several samples; empty if there is one.
+/// What the samples of a tile's pixels see, where a pixel has several. Memory that is used for one tile after the
+/// other.
+#[derive(Debug, Default)]
 pub(super) struct Pixels {
-    /// Handles of all samples together: 0 where only the background is seen.
-    pub(super) seen: Vec<u32>,
-    /// Colours times the share of the samples that see them. In f64 the shares, of sixteenths, and their
-    /// sums are exact, so that the mean of equal colours is that colour.
-    pub(super) sums: Vec<[f64; 3]>,
+    /// Per pixel, what all of its samples see; 0 where they differ or see the background.
+    pub(super) agreed: Vec<Handle>,
+    /// The pixels whose samples differ, block by block.
+    pub(super) mixed: Vec<u16>,
+    /// Of each of them, colours times the share of the samples that see them. In f64 the shares, of sixteenths, and
+    /// their sums are exact, so that the mean of equal colours is that colour.
+    sums: Vec<[f64; 3]>,
 }
 
 impl Pixels {
-    /// The pixels with the background's share.
-    pub(super) fn of(tile: &Tile, background: [f32; 3], samples: usize) -> Self {
-        if samples == 1 {
-            return Self { seen: Vec::new(), sums: Vec::new() };
-        }
-        let background = background.map(clamp);
-        let (first, others) = tile.visible.split_at(TILE_PIXELS);
-        let (mut seen, mut free) =
-            (first.to_vec(), first.iter().map(|&h| u8::from(h == 0)).collect::<Vec<_>>());
+    /// Finds out in which pixels the samples differ, and gives those the background's share.
+    #[inline(always)]
+    pub(super) fn set(&mut self, visible: &[Handle], background: [f32; 3]) {
+        let (first, others) = visible.split_at(TILE_PIXELS);
+        let mut differing = [0; TILE_PIXELS];
         for sample in others.chunks_exact(TILE_PIXELS) {
-            for ((seen, free), &handle) in seen.iter_mut().zip(&mut free).zip(sample) {
-                *seen |= handle;
-                *free += u8::from(handle == 0);
+            for ((differing, &first), &handle) in differing.iter_mut().zip(first).zip(sample) {
+                *differing |= first ^ handle;
             }
         }
-        let mut sums = vec![[0.0; 3]; TILE_PIXELS];
-        for (sum, free) in sums.iter_mut().zip(free).filter(|&(_, free)| free > 0) {
-            add(sum, background, f64::from(free) / samples as f64);
+        // Every number is written: of one that may stay the compiler makes a masked store.
+        self.agreed.resize(TILE_PIXELS, 0);
+        for ((agreed, &first), &differing) in self.agreed.iter_mut().zip(first).zip(&differing) {
+            *agreed = if differing == 0 { first } else { 0 };
         }
-        Self { seen, sums }
+        self.mixed.clear();
+        for block in blocks() {
+            let differs = |pixel: u16| differing[usize::from(pixel)] != 0;
+            if block.iter().fold(false, |any, &pixel| any | differs(pixel)) {
+                self.mixed.extend(block.iter().filter(|&&pixel| differs(pixel)));
+            }
+        }
+        let (background, samples) = (background.map(clamp), visible.len() / TILE_PIXELS);
+        self.sums.clear();
+        for &pixel in &self.mixed {
+            let seen = (0..samples).map(|sample| visible[sample * TILE_PIXELS + usize::from(pixel)]);
+            let free: u8 = seen.map(|handle| u8::from(handle == 0)).sum();
+            let mut sum = [0.0; 3];
+            if free > 0 {
+                add(&mut sum, background, f64::from(free) / samples as f64);
+            }
+            self.sums.push(sum);
+        }
     }
 
-    /// Stores the means of the pixels that see something; how many they are.
-    pub(super) fn resolve(self, tile: &mut Tile) -> u64 {
-        let mut covered = 0;
-        for ((color, seen), sum) in tile.color.iter_mut().zip(self.seen).zip(self.sums) {
-            if seen != 0 {
-                #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
-                let mean = sum.map(|channel| channel as f32);
-                *color = pack_rgba8(mean);
-                covered += 1;
+    /// Adds the colours of a list to the sums of their pixels, each by its share of the samples. The list has its
+    /// pixels in the order of `mixed`.
+    pub(super) fn accumulate(&mut self, list: &FragmentList, samples: usize) {
+        let [red, green, blue] = &list.colors;
+        let mut sums = self.mixed.iter().zip(&mut self.sums);
+        let mut last = sums.next();
+        for (i, &pixel) in list.pixels[..list.len].iter().enumerate() {
+            while last.as_ref().is_some_and(|&(&mixed, _)| mixed != pixel) {
+                last = sums.next();
             }
+            let Some((_, sum)) = &mut last else { return };
+            add(sum, [red[i], green[i], blue[i]], f64::from(list.weights[i]) / samples as f64);
         }
-        covered
+    }
+
+    /// Stores the means of the pixels whose samples differ.
+    pub(super) fn resolve(&self, tile: &mut Tile) {
+        for (&pixel, sum) in self.mixed.iter().zip(&self.sums) {
+            #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
+            let mean = sum.map(|channel| channel as f32);
+            tile.color[usize::from(pixel)] = rgba8(mean);
+        }
     }
 }
 
-/// Adds the colours of a list to the sums of their pixels, each by its share of the samples.
+/// Stores the colours of a list whose pixels are all different.
 #[inline(always)]
-pub(super) fn accumulate(list: &FragmentList, samples: usize, sums: &mut [[f64; 3]]) {
-    let [red, green, blue] = &list.colors;
-    for (i, &pixel) in list.pixels[..list.len].iter().enumerate() {
-        let share = f64::from(list.weights[i]) / samples as f64;
-        add(&mut sums[usize::from(pixel)], [red[i], green[i], blue[i]], share);
-    }
-}
-
-/// Stores the colours of a list in a tile with one sample a pixel.
-#[inline(always)]
-pub(super) fn write_colors<S: Simd>(simd: S, tile: &mut Tile, list: &FragmentList) {
-    let [red, green, blue] = &list.colors;
-    for (block, pixels) in list.filled().as_chunks().0.iter().enumerate() {
-        let first = block * BLOCK_PIXELS;
-        let red = quantize(f32x8::from_slice(simd, &red[first..first + BLOCK_PIXELS]));
-        let green = quantize(f32x8::from_slice(simd, &green[first..first + BLOCK_PIXELS]));
-        let blue = quantize(f32x8::from_slice(simd, &blue[first..first + BLOCK_PIXELS]));
-        let colors = red | green << 8 | blue << 16 | 255 << 24;
-        write_block(&mut tile.color, pixels, &colors.to_array());
+pub(super) fn write_colors(tile: &mut Tile, list: &FragmentList) {
+    let colors = list.packed.as_chunks().0;
+    for (pixels, colors) in list.filled().as_chunks().0.iter().zip(colors) {
+        write_block(&mut tile.color, pixels, colors);
     }
 }
 
@@ -113,22 +125,5 @@ fn clamp(c: f32) -> f32 {
 
 /// The stored colour of the background.
 pub(super) fn background(color: [f32; 3]) -> u32 {
-    pack_rgba8(color.map(clamp))
-}
-
-/// 8 bits of each channel in 0..=1, red lowest, and alpha 1.
-#[inline(always)]
-fn pack_rgba8(color: [f32; 3]) -> u32 {
-    // round-half-even(255·c): the addition rounds, and leaves the result in the low bits.
-    let [r, g, b] = color.map(|c| (c * 255.0 + WHOLE).to_bits() & 0xFF);
-    r | g << 8 | b << 16 | 255 << 24
-}
-
-/// A number to which a number in 0..=255 is added as a whole one: steps at its size are 1.
-const WHOLE: f32 = 8_388_608.0;
-
-/// 8 bits of channels in 0..=1, as [`pack_rgba8`] has them.
-#[inline(always)]
-fn quantize<S: Simd>(channel: f32x8<S>) -> u32x8<S> {
-    (channel * 255.0 + WHOLE).to_bits() & 0xFF
+    rgba8(color.map(clamp))
 }

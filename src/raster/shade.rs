@@ -50,9 +50,14 @@ pub(super) fn shade<L: Lane, const N: usize>(
                 )
             },
         ));
-        store(color.x, &mut list.colors[0][first..]);
-        store(color.y, &mut list.colors[1][first..]);
-        store(color.z, &mut list.colors[2][first..]);
+        let (red, green, blue) = (clamp(color.x), clamp(color.y), clamp(color.z));
+        if list.shares_pixels {
+            store(red, &mut list.colors[0][first..]);
+            store(green, &mut list.colors[1][first..]);
+            store(blue, &mut list.colors[2][first..]);
+        } else {
+            pack([red, green, blue], &mut list.packed[first..]);
+        }
     }
 }
 
@@ -60,9 +65,25 @@ pub(super) fn shade<L: Lane, const N: usize>(
 #[inline(always)]
 fn store<L: Lane>(channel: L, out: &mut [f32]) {
     let width = <L::Part as Part>::WIDTH;
-    clamp(channel).each_part(
+    channel.each_part(
         #[inline(always)]
         |i, part| part.store(&mut out[i * width..]),
+    );
+}
+
+/// Writes the fragments' colours as they are stored.
+#[inline(always)]
+fn pack<L: Lane>(channels: [L; 3], out: &mut [u32]) {
+    let width = <L::Part as Part>::WIDTH;
+    let mut first = 0;
+    L::map_parts(
+        channels,
+        #[inline(always)]
+        |rgb| {
+            Part::store_rgba8(rgb, &mut out[first..]);
+            first += width;
+            rgb
+        },
     );
 }
 

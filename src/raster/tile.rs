@@ -6,10 +6,12 @@
 
 use std::{mem::take, ops::Range};
 
+use fearless_simd::Simd;
+
 use super::{
     assemble::Chunk,
     draw_call::DrawCall,
-    fragments::{FragmentList, in_blocks},
+    fragments::FragmentList,
     framebuffer::Tile,
     handle::{Handle, pack, unpack},
     interpolate::ShadeInput,
@@ -19,7 +21,7 @@ use super::{
     stats::TileStats,
     tiling::{TILE, TILE_PIXELS},
     timing::Clock,
-    triangle::{TileBounds, draw_triangle, first_covered},
+    triangle::{TileBounds, covering, draw_triangle, first_covered, touches},
     vertex::VertexBuffer,
 };
 use crate::lanes::{
@@ -41,8 +43,15 @@ pub(super) struct TileScene<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     visible: Vec<Handle>,
+    /// Of pixels that see one primitive.
     list: FragmentList,
+    /// Of pixels that may see several.
+    shared: FragmentList,
+    pixels: Pixels,
 }
+
+/// Primitives in a tile up to which it is asked whether one of them is alone.
+const MAX_ALONE: usize = 4;
 
 /// Draws one tile. What is in `scratch` does not matter.
 pub(super) fn draw_tile(
@@ -53,6 +62,7 @@ pub(super) fn draw_tile(
 ) -> TileStats {
     let started = clock.now();
     let at = tile.position();
+    tile.plane = None;
     let touching = (0..scene.chunks.len()).filter(|&chunk| !scene.chunks[chunk].bins.in_tile(at).is_empty());
     let chunks: Vec<usize> = touching.collect();
     let background = resolve::background(scene.background);
@@ -63,21 +73,73 @@ pub(super) fn draw_tile(
         return TileStats { raster: clock.now() - started, ..TileStats::default() };
     }
 
+    if let Some(stats) = draw_whole(tile, &chunks, scene, &mut scratch.list, clock) {
+        return stats;
+    }
+
     // Visibility buffer: the nearest primitive of every sample.
     tile.begin(take(&mut scratch.visible));
     dispatch!(simd => find_visible(simd, tile, &chunks, scene));
-    if tile.visible.contains(&0) {
+    // Not `contains`, which looks at one after the other.
+    if tile.visible.iter().fold(false, |any, &handle| any | (handle == 0)) {
         tile.color.fill(background);
     }
     let seen = clock.now();
 
     // Shading: the fragment program of every primitive that is seen, and resolve.
-    let (fragments, covered) = shade_tile(tile, &chunks, scene, &mut scratch.list);
+    let (fragments, covered) = shade_tile(tile, &chunks, scene, scratch);
     if scene.ids {
         tile.ids.extend(tile.visible[..TILE_PIXELS].iter().map(|&handle| id(handle, scene)));
     }
     scratch.visible = take(&mut tile.visible);
     TileStats { fragments, covered, raster: seen - started, shading: clock.now() - seen }
+}
+
+/// Draws a tile that a triangle covers alone: there is nothing to find out.
+fn draw_whole(
+    tile: &mut Tile,
+    chunks: &[usize],
+    scene: &TileScene<'_>,
+    list: &mut FragmentList,
+    clock: &impl Clock,
+) -> Option<TileStats> {
+    let started = clock.now();
+    let at = tile.position();
+    let count: usize = chunks.iter().map(|&chunk| scene.chunks[chunk].bins.in_tile(at).len()).sum();
+    if count > MAX_ALONE {
+        return None;
+    }
+    // What is binned here may only have its box in the tile.
+    let all = chunks
+        .iter()
+        .flat_map(|&chunk| scene.chunks[chunk].bins.in_tile(at).iter().map(move |&p| (chunk, p)));
+    let mut touching = all.filter(|&(number, primitive)| {
+        let chunk = &scene.chunks[number];
+        let Some(triangle) = chunk.triangles.get(primitive as usize) else { return true };
+        touches(&chunk.corners(triangle, &scene.buffers[chunk.call]), tile, &scene.viewport)
+    });
+    let (number, primitive) = touching.next()?;
+    if touching.next().is_some() {
+        return None;
+    }
+    let chunk = &scene.chunks[number];
+    let triangle = chunk.triangles.get(primitive as usize)?;
+    let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
+    if !TileBounds::of(triangle.bounds, tile).is_whole() {
+        return None;
+    }
+    tile.plane = Some(covering(&corners, triangle.scale, tile, &scene.viewport)?);
+    tile.cleared = None;
+    let (handle, filled) = (pack(number, primitive), clock.now());
+    list.list_whole(handle);
+    shade_fragments(tile, chunk.call, scene, list);
+    tile.color.copy_from_slice(&list.packed[..TILE_PIXELS]);
+    if scene.ids {
+        tile.ids.resize(TILE_PIXELS, id(handle, scene));
+    }
+    let pixels = TILE_PIXELS as u64;
+    let (raster, shading) = (filled - started, clock.now() - filled);
+    Some(TileStats { fragments: pixels, covered: pixels, raster, shading })
 }
 
 /// Depth and visibility of every primitive that touches the tile, in submission order.
@@ -91,9 +153,7 @@ fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], sc
             let handle = pack(number, primitive);
             if let Some(triangle) = chunk.triangles.get(primitive as usize) {
                 let bounds = TileBounds::of(triangle.bounds, tile);
-                let [a, b, c] = triangle.vertices;
-                let corners =
-                    [chunk.corner(a, vertices), chunk.corner(b, vertices), chunk.corner(c, vertices)];
+                let corners = chunk.corners(triangle, vertices);
                 draw_triangle(simd, tile, &corners, triangle.scale, bounds, handle, viewport);
             } else if let Some(line) = chunk.lines.get(primitive as usize) {
                 let bounds = TileBounds::of(line.bounds, tile);
@@ -108,69 +168,71 @@ fn shade_tile(
     tile: &mut Tile,
     chunks: &[usize],
     scene: &TileScene<'_>,
-    list: &mut FragmentList,
+    Scratch { list, shared, pixels, .. }: &mut Scratch,
 ) -> (u64, u64) {
     let samples = scene.viewport.samples;
-    let mut pixels = Pixels::of(tile, scene.background, samples);
-    let mut fragments = 0;
+    if samples > 1 {
+        dispatch_plain!(pixels.set(&tile.visible, scene.background));
+    }
+    let (mut alone, mut together) = (0, 0);
     for of_call in chunks.chunk_by(|&a, &b| scene.chunks[a].call == scene.chunks[b].call) {
         let (Some(&first), Some(&last)) = (of_call.first(), of_call.last()) else { continue };
-        collect_fragments(tile, first..last + 1, scene, &pixels.seen, list);
-        shade_fragments(tile, scene.chunks[first].call, scene, list);
-        if samples == 1 {
-            dispatch!(simd => resolve::write_colors(simd, tile, list));
-        } else {
-            dispatch_plain!(resolve::accumulate(list, samples, &mut pixels.sums));
+        let (call, handles) = (scene.chunks[first].call, pack(first, 0)..pack(last + 1, 0));
+        list.clear(1);
+        let visible = if samples == 1 { &tile.visible } else { &pixels.agreed };
+        dispatch_plain!(list.list_visible(visible, &handles));
+        list.finish();
+        shade_fragments(tile, call, scene, list);
+        dispatch_plain!(resolve::write_colors(tile, list));
+        alone += list.len as u64;
+        if samples > 1 {
+            shared.clear(samples);
+            dispatch!(simd => list_mixed(simd, tile, &pixels.mixed, &handles, scene, shared));
+            shared.finish();
+            shade_fragments(tile, call, scene, shared);
+            pixels.accumulate(shared, samples);
+            together += shared.len as u64;
         }
-        fragments += list.len as u64;
     }
-    (fragments, if samples == 1 { fragments } else { pixels.resolve(tile) })
+    if samples == 1 {
+        return (alone, alone);
+    }
+    pixels.resolve(tile);
+    (alone + together, alone + pixels.mixed.len() as u64)
 }
 
-/// Lists the pixels in which a primitive of these chunks is seen, each primitive once a pixel.
-fn collect_fragments(
+/// Adds what is seen in pixels whose samples differ to a list, each primitive once a pixel.
+#[inline(always)]
+fn list_mixed<S: Simd>(
+    simd: S,
     tile: &Tile,
-    chunks: Range<usize>,
+    pixels: &[u16],
+    handles: &Range<Handle>,
     scene: &TileScene<'_>,
-    seen: &[u32],
     list: &mut FragmentList,
 ) {
-    let samples = scene.viewport.samples;
-    list.clear(samples);
-    let handles = pack(chunks.start, 0)..pack(chunks.end, 0);
-    if samples == 1 {
-        dispatch_plain!(list.list_visible(&tile.visible, &handles));
-    } else {
-        for pixel in in_blocks().filter(|&pixel| seen[pixel] != 0) {
-            let primitive = tile.visible[pixel];
-            if samples_of(tile, samples, pixel).all(|other| other == primitive) {
-                if handles.contains(&primitive) {
-                    list.add(pixel, primitive, samples);
-                }
-                continue;
-            }
-            let seen = samples_of(tile, samples, pixel).filter(|seen| handles.contains(seen));
-            list.add_pixel(pixel, seen, |primitive| place(tile, pixel, primitive, scene));
-        }
+    for &pixel in pixels {
+        list.add_pixel(
+            pixel,
+            &tile.visible,
+            handles,
+            #[inline(always)]
+            |primitive| place(simd, tile, pixel.into(), primitive, scene),
+        );
     }
-    list.finish();
 }
 
 /// Where in a pixel a primitive is shaded, as the list counts places.
-fn place(tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) -> u8 {
+#[inline(always)]
+fn place<S: Simd>(simd: S, tile: &Tile, pixel: usize, primitive: Handle, scene: &TileScene<'_>) -> u8 {
     let (chunk, index) = unpack(primitive);
     let chunk = &scene.chunks[chunk];
     let Some(triangle) = chunk.triangles.get(index) else { return 0 };
-    let corners = triangle.vertices.map(|vertex| chunk.corner(vertex, &scene.buffers[chunk.call]));
+    let corners = chunk.corners(triangle, &scene.buffers[chunk.call]);
     let pixel = [tile.left + pixel % TILE, tile.top + pixel / TILE];
-    let first = first_covered(&corners, pixel, scene.viewport.samples);
+    let first = first_covered(simd, &corners, pixel, scene.viewport.samples);
     #[expect(clippy::cast_possible_truncation, reason = "at most 16 samples")]
     first.map_or(0, |first| first as u8 + 1)
-}
-
-/// What each sample of a pixel sees.
-fn samples_of(tile: &Tile, samples: usize, pixel: usize) -> impl Iterator<Item = Handle> {
-    (0..samples).map(move |sample| tile.visible[sample * TILE_PIXELS + pixel])
 }
 
 /// Runs the fragment program of a call over its fragments.

@@ -7,22 +7,22 @@
 //! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
 //! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
-use fearless_simd::{Bytes, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, u32x8};
+use fearless_simd::{
+    Bytes, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, mask64x4, u32x8,
+};
 
 use super::{
+    depth::{DepthPlane, WIDTH, along_row, whole},
     framebuffer::Tile,
     handle::Handle,
     samples,
     setup::{Bounds, Corner, Viewport},
     tiling::{SUBPIXELS, TILE, TILE_PIXELS},
 };
-use crate::lanes::{FragmentLanes, Lane, Pair};
-
-/// Pixels of a row that are tested at a time.
-const WIDTH: usize = 8;
+use crate::lanes::{FragmentLanes, Lane};
 
 /// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Edge {
     at: i32,
     column: i32,
@@ -50,15 +50,6 @@ impl Edge {
     }
 }
 
-/// Window depth as a plane: z = `at` + x·`column` + y·`row` at window position (x, y), y up.
-#[derive(Clone, Copy, Debug)]
-struct DepthPlane {
-    origin: [f64; 2],
-    at: f64,
-    column: f64,
-    row: f64,
-}
-
 /// The part of a tile that a primitive may touch: first and last column and row, inclusive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TileBounds {
@@ -73,6 +64,11 @@ impl TileBounds {
             [usize::from(first).max(start) - start, (usize::from(last) - start).min(TILE - 1)]
         };
         Self { x: within(bounds.x, tile.left), y: within(bounds.y, tile.top) }
+    }
+
+    /// Whether it is all of the tile.
+    pub(super) fn is_whole(&self) -> bool {
+        self.x == [0, TILE - 1] && self.y == [0, TILE - 1]
     }
 }
 
@@ -95,6 +91,29 @@ pub(super) fn draw_triangle<S: FragmentLanes>(
             draw_sample(simd, tile, &sample, &depth, bounds, handle, viewport.height);
         }
     }
+}
+
+/// Whether a triangle may cover samples of a tile.
+pub(super) fn touches(corners: &[Corner; 3], tile: &Tile, viewport: &Viewport) -> bool {
+    let positions = samples::positions(viewport.samples).iter();
+    positions
+        .map(|position| position.map(|p| p * (SUBPIXELS / 16)))
+        .any(|at| tile_edges(corners, tile, at).is_some())
+}
+
+/// The depths of a triangle that covers a tile and surely lies within the depths of the view volume there; `None` if
+/// it does not.
+pub(super) fn covering(
+    corners: &[Corner; 3],
+    scale: f64,
+    tile: &Tile,
+    viewport: &Viewport,
+) -> Option<DepthPlane> {
+    let positions = samples::positions(viewport.samples).iter();
+    let mut offsets = positions.map(|position| position.map(|p| p * (SUBPIXELS / 16)));
+    let plane = DepthPlane::of(corners, scale);
+    let covers = offsets.all(|offset| tile_edges(corners, tile, offset) == Some([Edge::default(); 3]));
+    (covers && plane.is_within([tile.left, tile.top], viewport.height)).then_some(plane)
 }
 
 /// One of the samples of every pixel.
@@ -151,28 +170,6 @@ fn draw_sample<S: FragmentLanes>(
     }
 }
 
-/// What the depth plane grows by along eight pixels of a row, the first at `column` from the origin.
-#[inline(always)]
-fn along_row<S: FragmentLanes>(simd: S, column: f64, step: f64) -> Pair<f64x4<S>> {
-    let (first, step) = (f64x4::splat(simd, column), f64x4::splat(simd, step));
-    let columns = [[0.0, 1.0, 2.0, 3.0], [4.0, 5.0, 6.0, 7.0]];
-    Pair(
-        step * (first + f64x4::load_array(simd, columns[0])),
-        step * (first + f64x4::load_array(simd, columns[1])),
-    )
-}
-
-/// A column or row of the picture as a number.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "pictures are at most 16384 wide"
-)]
-fn whole(pixel: usize) -> f64 {
-    f64::from(pixel as i32)
-}
-
 /// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
 ///
 /// Minimum and maximum in place of selections: of those the compiler makes stores of single lanes, which
@@ -197,28 +194,32 @@ fn depth_test<S: FragmentLanes>(
     *visible = SimdBase::max(u32x8::load_array(simd, *visible), passed).to_array();
 }
 
-/// The first of the samples of a pixel that a triangle covers; `None` if it covers all of them, or none.
-pub(super) fn first_covered(corners: &[Corner; 3], pixel: [usize; 2], samples: usize) -> Option<usize> {
-    let snapped = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
-    let covered = |position: &[i32; 2]| {
-        let at = |axis: usize| {
-            pixel[axis] as i64 * i64::from(SUBPIXELS) + i64::from(position[axis] * (SUBPIXELS / 16))
-        };
-        covers(snapped, [at(0), at(1)])
-    };
-    let positions = samples::positions(samples);
-    let first = positions.iter().position(covered)?;
-    (first > 0 || !positions.iter().all(covered)).then_some(first)
-}
-
-/// Whether a triangle covers a point, in 1/256 pixel, y down: the fill rule of [`tile_edge`].
-fn covers([a, b, c]: [[i32; 2]; 3], point: [i64; 2]) -> bool {
-    [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
-        let (column, row) = (i64::from(from[1] - to[1]), i64::from(to[0] - from[0]));
-        let value = column * (point[0] - i64::from(from[0])) + row * (point[1] - i64::from(from[1]));
-        let inclusive = column > 0 || (column == 0 && row < 0);
-        value >= i64::from(!inclusive)
-    })
+/// The first of several samples of a pixel that a triangle covers; `None` if it covers all of them, or none. The fill
+/// rule is that of [`tile_edge`]; the values of edges are whole numbers below 2^53, and exact.
+#[inline(always)]
+pub(super) fn first_covered<S: Simd>(
+    simd: S,
+    corners: &[Corner; 3],
+    pixel: [usize; 2],
+    samples: usize,
+) -> Option<usize> {
+    let [a, b, c] = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
+    let (mut covered, mut all) = (0, 0);
+    for (first, four) in (0..).step_by(4).zip(samples::positions(samples).as_chunks::<4>().0) {
+        let mut inside = mask64x4::splat(simd, true);
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (column, row) = (f64::from(from[1] - to[1]), f64::from(to[0] - from[0]));
+            let inclusive = column > 0.0 || (column == 0.0 && row < 0.0);
+            let at = |axis: usize| whole(pixel[axis]) * f64::from(SUBPIXELS) - f64::from(from[axis]);
+            let corner = column * at(0) + row * at(1) - f64::from(u8::from(!inclusive));
+            let offsets = |axis: usize| four.map(|position| f64::from(position[axis] * (SUBPIXELS / 16)));
+            let (x, y) = (f64x4::load_array(simd, offsets(0)), f64x4::load_array(simd, offsets(1)));
+            inside &= (x * column + y * row + corner).simd_ge(0.0);
+        }
+        covered |= inside.to_bitmask() << first;
+        all |= 0b1111 << first;
+    }
+    (covered != 0 && covered != all).then(|| covered.trailing_zeros() as usize)
 }
 
 /// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
@@ -252,20 +253,4 @@ fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Opt
         return Some(Edge::default());
     }
     Some(Edge { at: at as i32, column, row })
-}
-
-impl DepthPlane {
-    /// The plane through the unsnapped corners; `scale` is 1 / `window_area`.
-    #[inline(always)]
-    fn of(corners: &[Corner; 3], scale: f64) -> Self {
-        let [a, b, c] = [&corners[0].window, &corners[1].window, &corners[2].window];
-        let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
-        let (zb, zc) = (d(b.z, a.z), d(c.z, a.z));
-        Self {
-            origin: [a.x.into(), a.y.into()],
-            at: a.z.into(),
-            column: (zb * d(c.y, a.y) - zc * d(b.y, a.y)) * scale,
-            row: (zc * d(b.x, a.x) - zb * d(c.x, a.x)) * scale,
-        }
-    }
 }

@@ -6,10 +6,13 @@ mod programs;
 
 pub use options::{Options, Shading};
 
+use std::mem::take;
+
 use crate::{
     cloth::Points,
     error::{Error, Kind, Result},
     math::StateHash,
+    mesh::Mesh,
     raster::{self, DrawCall, Framebuffer, Stages, Stats},
     scene::{Scene, Vec3},
     texture_source::TextureSource,
@@ -99,8 +102,9 @@ impl Renderer {
 
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
     pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> Stats {
-        let objects = self.objects(points, options);
-        raster::draw(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
+        self.draw_with(framebuffer, points, options, |framebuffer, calls| {
+            raster::draw(framebuffer, self.background(), calls, options.ids)
+        })
     }
 
     /// Does what [`Renderer::draw_into`] does, and measures the time of each stage.
@@ -110,20 +114,38 @@ impl Renderer {
         points: &Points,
         options: &Options,
     ) -> (Stats, Stages) {
-        let objects = self.objects(points, options);
-        raster::draw_timed(framebuffer, self.background(), &self.calls(&objects, options), options.ids)
+        self.draw_with(framebuffer, points, options, |framebuffer, calls| {
+            raster::draw_timed(framebuffer, self.background(), calls, options.ids)
+        })
     }
 
-    /// What is drawn, with the cloth at `points`.
-    fn objects(&self, points: &Points, options: &Options) -> Vec<Object<'_>> {
+    /// Hands the draw calls to `draw`, on a thread of the pool: parallel work that starts there starts at once,
+    /// while any other thread hands it over, sleeps and is woken each time.
+    fn draw_with<R: Send>(
+        &self,
+        framebuffer: &mut Framebuffer,
+        points: &Points,
+        options: &Options,
+        draw: impl FnOnce(&mut Framebuffer, &[DrawCall<'_>]) -> R + Send,
+    ) -> R {
+        rayon::scope(|_| {
+            let objects = self.objects(points, options, take(&mut framebuffer.mesh));
+            let result = draw(framebuffer, &self.calls(&objects, options));
+            framebuffer.mesh = cloth_mesh(objects);
+            result
+        })
+    }
+
+    /// What is drawn, with the cloth at `points`, whose mesh takes the `memory` of another.
+    fn objects(&self, points: &Points, options: &Options, memory: Mesh) -> Vec<Object<'_>> {
         let Programs { scene, origin, .. } = &self.programs;
         if *origin == Vec3::zeros() {
-            return Object::all(scene, points, options.springs);
+            return Object::all(scene, points, options.springs, memory);
         }
         let moved = |values: &[f64], by: f64| values.iter().map(|value| value - by).collect();
         let Points { x, y, z } = points;
         let points = Points { x: moved(x, origin.x), y: moved(y, origin.y), z: moved(z, origin.z) };
-        Object::all(scene, &points, options.springs)
+        Object::all(scene, &points, options.springs, memory)
     }
 
     fn calls<'a>(&'a self, objects: &'a [Object<'a>], options: &Options) -> Vec<DrawCall<'a>> {
@@ -134,6 +156,11 @@ impl Renderer {
     fn background(&self) -> [f32; 3] {
         round(self.programs.scene.render.background)
     }
+}
+
+/// The mesh of the cloth, or of what comes first: memory for the next.
+fn cloth_mesh(objects: Vec<Object<'_>>) -> Mesh {
+    objects.into_iter().next().map(|object| object.mesh).unwrap_or_default()
 }
 
 /// Checks that the picture of `scene` has at most [`MAX_SAMPLES`].

@@ -14,7 +14,7 @@ use crate::{
 
 /// A mesh in the world, and what it looks like.
 pub(super) struct Object<'a> {
-    mesh: Mesh,
+    pub(super) mesh: Mesh,
     lines: Option<Vec<[u32; 2]>>,
     pub(super) model: Columns,
     pub(super) material: &'a Material,
@@ -24,13 +24,19 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// What is drawn, in order: the cloth, then the colliders.
-    pub(super) fn all(scene: &'a Scene, points: &Points, springs: Option<SpringKinds>) -> Vec<Self> {
+    /// What is drawn, in order: the cloth, then the colliders. The cloth's mesh takes the `memory` of another.
+    pub(super) fn all(
+        scene: &'a Scene,
+        points: &Points,
+        springs: Option<SpringKinds>,
+        memory: Mesh,
+    ) -> Vec<Self> {
         let mut objects = Vec::new();
         if let Some(cloth) = &scene.cloth {
             let lines = (cloth.material.shader == Shader::Wireframe)
                 .then(|| spring_lines(cloth, springs.unwrap_or_else(|| SpringKinds::of(cloth))));
-            let mesh = Mesh::cloth(cloth, points, Needs::of(cloth.material.shader));
+            let mut mesh = memory;
+            mesh.set_cloth(cloth, points, Needs::of(cloth.material.shader));
             let (model, material) = (model(Placement::WORLD), &cloth.material);
             objects.push(Self { mesh, lines, model, material, wrap_v: Wrap::Repeat, is_plane: false });
         }

@@ -4,7 +4,7 @@ use super::{
     Uniforms,
     default::Relief,
     phong::{blinn_phong, facing},
-    sampler::{Sampler2d, texture},
+    sampler::{Sampler2d, texture_red},
 };
 use crate::{
     glsl::{Vec3, cross, float, normalize, vec3},
@@ -48,7 +48,7 @@ fn heights<P: Part>(u_texture_2: Sampler2d<'_>, v_uv: [P; 2]) -> [P; 3] {
     // A loop, because three look-ups in a row are three times as much to compile, and no faster.
     let mut heights = [x; 3];
     for (i, height) in heights.iter_mut().enumerate() {
-        *height = texture(u_texture_2, [us[i], vs[i]]).x;
+        *height = texture_red(u_texture_2, [us[i], vs[i]]);
     }
     heights
 }

@@ -8,3 +8,4 @@ mod lines;
 mod quantisation;
 mod samples;
 mod visibility;
+mod whole_tiles;
