@@ -165,9 +165,9 @@ impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
             _ => [second, first, third],
         };
         // Loops, because `for_each` of a range is not sure to be inlined, and then not compiled for the vectors of the CPU.
-        for c in 0..3 {
+        for (c, weight) in weight.iter().enumerate() {
             let slot = 2 * c;
-            let mut sum = own_sum(simd, n, old, c, weight[c], own.chunks_mut(c));
+            let mut sum = own_sum(simd, n, old, c, *weight, own.chunks_mut(c));
             let band = (*springs, *fixed, rows.end);
             match owned(band, slot, j, x, new) {
                 Some(owned) => owned.pull_and(simd, n, sum),
