@@ -1,5 +1,6 @@
 //! The grid of points: its size, where it starts, and which of its points are held.
 
+use std::iter;
 use std::ops::Range;
 
 use super::{Points, filled, too_large};
@@ -104,6 +105,13 @@ impl Pins {
         }
         let free = free_runs(&pinned);
         Ok(Self { pinned, free })
+    }
+
+    /// The pinned points in index order.
+    pub fn held(&self) -> impl Iterator<Item = usize> {
+        let ends = self.free.iter().map(|run| run.end);
+        let starts = self.free.iter().map(|run| run.start).chain([self.pinned.len()]);
+        iter::once(0).chain(ends).zip(starts).flat_map(|(start, end)| start..end)
     }
 
     /// How many points are not pinned.

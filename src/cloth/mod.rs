@@ -47,8 +47,10 @@ pub mod grid;
 mod params;
 mod points;
 pub(crate) mod real;
+mod row;
 pub mod springs;
 pub(crate) mod stretch_limit;
+pub(crate) mod sweep;
 
 pub use counters::Counters;
 pub use params::{Params, damping_rate};

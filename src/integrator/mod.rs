@@ -60,6 +60,12 @@ pub(crate) trait Integrator: BoxedClone + Debug + Send + Sync {
     /// Phase 2: moves every unpinned point on by one step, and makes `last` the positions before it.
     fn advance(&mut self, x: &mut Points, last: &mut Points, model: Model<'_>, work: &mut Counters);
 
+    /// Phases 1 and 2, where nothing looks at the cloth between them.
+    fn step(&mut self, x: &mut Points, last: &mut Points, model: Model<'_>, work: &mut Counters) {
+        self.compute_forces(x, model, work);
+        self.advance(x, last, model, work);
+    }
+
     /// What it remembers from step to step besides positions and last positions.
     fn memory(&self) -> &[Points] {
         &[]

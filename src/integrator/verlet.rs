@@ -13,13 +13,14 @@
 //! of 0.05 %, no cloth was found that gains energy below its bound in motion.
 
 use std::f64::consts::SQRT_2;
+use std::mem;
 
 use rayon::prelude::*;
 
 use super::damped_step::DampedStep;
 use super::{Integrator, StepBound};
-use crate::cloth::forces::Forces;
 use crate::cloth::springs::Springs;
+use crate::cloth::sweep::Sweep;
 use crate::cloth::{Counters, Model, Params, Points, chunks};
 use crate::error::Result;
 use crate::scene::{Cloth, Damping, Sim, Vec3};
@@ -28,12 +29,15 @@ use crate::scene::{Cloth, Damping, Sim, Vec3};
 #[derive(Clone, Debug)]
 pub(super) struct Verlet {
     step: DampedStep,
-    forces: Forces,
+    sweep: Sweep,
+    /// The forces, in N, where they are a phase of their own; else room for the next positions.
+    spare: Points,
 }
 
 impl Integrator for Verlet {
     fn new(cloth: &Cloth, sim: &Sim, springs: &Springs) -> Result<Self> {
-        Ok(Self { step: DampedStep::midpoint(cloth, sim), forces: Forces::new(springs)? })
+        let (sweep, spare) = (Sweep::new(springs)?, Points::zeros(springs.grid.len())?);
+        Ok(Self { step: DampedStep::midpoint(cloth, sim), sweep, spare })
     }
 
     fn step_bound(cloth: &Cloth, damping: Damping, _dt: f64) -> Option<StepBound> {
@@ -45,14 +49,50 @@ impl Integrator for Verlet {
     }
 
     fn compute_forces(&mut self, x: &Points, model: Model<'_>, work: &mut Counters) {
-        self.forces.compute(x, model.springs, model.params.weight.into(), work);
+        self.sweep.run(
+            x,
+            model,
+            &mut self.spare,
+            #[inline(always)]
+            |_, force, out| out.into_iter().zip(force).for_each(|(out, force)| out.copy_from_slice(force)),
+        );
+        work.springs_evaluated += model.springs.len() as u64;
+    }
+
+    /// Both phases in one sweep over the rows: what [`Verlet::compute_forces`] and [`Verlet::advance`] do, with each force used as
+    /// soon as it is complete. New positions go to a third buffer, because bands of rows still read the old ones of their
+    /// neighbours; then the three change places.
+    fn step(&mut self, x: &mut Points, last: &mut Points, model: Model<'_>, work: &mut Counters) {
+        let Self { step, sweep, spare } = self;
+        let (now, before) = (x.components(), last.components());
+        sweep.run(
+            x,
+            model,
+            spare,
+            #[inline(always)]
+            |first, force, new| {
+                for (c, new) in new.into_iter().enumerate() {
+                    let row = first..first + new.len();
+                    advance_row(&now[c][row.clone()], &before[c][row], force[c], new, *step);
+                }
+            },
+        );
+        mem::swap(x, last);
+        mem::swap(x, spare);
+        // `last` has the positions before the step, and `spare` the last ones. Pinned points keep both.
+        for p in model.pins.held() {
+            x.set(p, last.get(p));
+            last.set(p, spare.get(p));
+        }
+        work.springs_evaluated += model.springs.len() as u64;
+        work.points_advanced += model.pins.free_points();
     }
 
     /// `new = x + (x - last) · velocity_retention + f · dt2_over_m`, `last = x`, `x = new`.
     fn advance(&mut self, x: &mut Points, last: &mut Points, model: Model<'_>, work: &mut Counters) {
-        let Self { step, forces } = self;
+        let Self { step, spare: forces, .. } = self;
         let free = &model.pins.free;
-        let state = x.cut_mut().zip(last.cut_mut()).zip(forces.sum().cut()).enumerate();
+        let state = x.cut_mut().zip(last.cut_mut()).zip(forces.cut()).enumerate();
         state.for_each(|(chunk, ((x, last), force))| {
             let components = x.into_iter().zip(last).zip(force);
             components.for_each(|((x, last), force)| {
@@ -65,7 +105,7 @@ impl Integrator for Verlet {
     }
 
     fn decompose(&self, p: usize, before: Vec3, _moved: Vec3, params: &Params) -> [Vec3; 2] {
-        let force = self.forces.sum().get(p);
+        let force = self.spare.get(p);
         [self.step.drag(before, force, params), force]
     }
 
@@ -82,6 +122,17 @@ pub(super) fn step_bound(cloth: &Cloth, damping: Damping) -> StepBound {
         Damping::PerSecond => 2.0,
     };
     StepBound { at_rest, in_motion: if cloth.damping > 0.0 { at_rest } else { SQRT_2 } }
+}
+
+/// One component of a row: `new = x + (x - last) · velocity_retention + f · dt2_over_m`.
+#[inline(always)]
+fn advance_row(x: &[f64], last: &[f64], force: &[f64], new: &mut [f64], step: DampedStep) {
+    let DampedStep { velocity_retention, dt2_over_m } = step;
+    let n = new.len();
+    let (x, last, force) = (&x[..n], &last[..n], &force[..n]);
+    for i in 0..n {
+        new[i] = x[i] + (x[i] - last[i]) * velocity_retention + force[i] * dt2_over_m;
+    }
 }
 
 /// One component of consecutive points.

@@ -118,6 +118,10 @@ impl LedgerRecorder {
 }
 
 impl Observer for LedgerRecorder {
+    fn sees_forces(&self) -> bool {
+        true
+    }
+
     fn before_step(&mut self, cloth: &State) {
         let State { x, last, springs, params, .. } = cloth;
         (0..x.len()).for_each(|p| self.before.set(p, x.get(p) - last.get(p)));

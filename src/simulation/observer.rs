@@ -8,6 +8,10 @@ use crate::cloth::Counters;
 /// What sees a cloth before a step, after each phase and after the step. What an observer leaves out does
 /// nothing.
 pub(super) trait Observer {
+    /// Whether it sees the cloth between forces and integration, or what needs the force on each point. If none does,
+    /// an integrator may do both phases at once.
+    fn sees_forces(&self) -> bool;
+
     /// Sees the cloth before a step.
     fn before_step(&mut self, _cloth: &State) {}
 
@@ -20,6 +24,10 @@ pub(super) trait Observer {
 
 /// Counters add up the work of the steps.
 impl Observer for Counters {
+    fn sees_forces(&self) -> bool {
+        false
+    }
+
     fn after_step(&mut self, cloth: &State) {
         *self += cloth.work;
     }
@@ -27,6 +35,10 @@ impl Observer for Counters {
 
 /// An observer that may be absent.
 impl<O: Observer> Observer for Option<O> {
+    fn sees_forces(&self) -> bool {
+        self.as_ref().is_some_and(O::sees_forces)
+    }
+
     fn before_step(&mut self, cloth: &State) {
         if let Some(observer) = self {
             observer.before_step(cloth);

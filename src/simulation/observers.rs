@@ -16,6 +16,10 @@ pub(super) struct Observers {
 }
 
 impl Observer for Observers {
+    fn sees_forces(&self) -> bool {
+        self.counters.sees_forces() || self.timing.sees_forces() || self.ledger.sees_forces()
+    }
+
     fn before_step(&mut self, cloth: &State) {
         self.counters.before_step(cloth);
         self.timing.before_step(cloth);
@@ -43,7 +47,11 @@ mod tests {
     /// An observer that does nothing.
     struct Nothing;
 
-    impl Observer for Nothing {}
+    impl Observer for Nothing {
+        fn sees_forces(&self) -> bool {
+            false
+        }
+    }
 
     /// An observer that counts its calls.
     #[derive(Default)]
@@ -53,6 +61,10 @@ mod tests {
     }
 
     impl Observer for Calls {
+        fn sees_forces(&self) -> bool {
+            true
+        }
+
         fn before_step(&mut self, _cloth: &State) {
             self.steps[0] += 1;
         }

@@ -126,6 +126,11 @@ impl State {
         integrator.compute_forces(x, Model { springs, pins, params }, work);
     }
 
+    pub(super) fn compute_forces_and_integrate(&mut self) {
+        let Self { springs, pins, params, x, last, integrator, work, .. } = self;
+        integrator.step(x, last, Model { springs, pins, params }, work);
+    }
+
     pub(super) fn integrate(&mut self) {
         let Self { springs, pins, params, x, last, integrator, work, .. } = self;
         integrator.advance(x, last, Model { springs, pins, params }, work);

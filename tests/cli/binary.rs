@@ -22,6 +22,8 @@ struct Function {
     wide: usize,
     /// Those of four f32.
     narrow: usize,
+    /// Of 256-bit vectors of f64: roots, divisions and comparisons; and roots of single f64.
+    of_f64: [usize; 4],
     /// Addresses of the functions that it calls.
     calls: Vec<u64>,
 }
@@ -43,6 +45,19 @@ fn divides(mnemonic: &str, operands: &str) -> [bool; 2] {
     [single && !wide, root && wide]
 }
 
+/// Which of the operations of [`Function::of_f64`] an instruction is.
+fn operation_of_f64(mnemonic: &str, operands: &str) -> Option<usize> {
+    let wide = operands.contains("%ymm");
+    let compares = mnemonic.starts_with("vcmp") && mnemonic.ends_with("pd");
+    match mnemonic {
+        "vsqrtpd" if wide => Some(0),
+        "vdivpd" if wide => Some(1),
+        _ if compares && wide => Some(2),
+        "vsqrtsd" => Some(3),
+        _ => None,
+    }
+}
+
 /// The functions by address in what `objdump -d --no-show-raw-insn` prints.
 fn functions(text: impl BufRead) -> BTreeMap<u64, Function> {
     let mut functions = BTreeMap::new();
@@ -60,6 +75,9 @@ fn functions(text: impl BufRead) -> BTreeMap<u64, Function> {
             function.slow.push(instruction.trim().to_owned());
         }
         let [narrow, wide] = divides(mnemonic, operands).map(usize::from);
+        if let Some(operation) = operation_of_f64(mnemonic, operands) {
+            function.of_f64[operation] += 1;
+        }
         function.narrow += narrow;
         function.wide += wide;
         if mnemonic == "call" || mnemonic == "jmp" {
@@ -133,6 +151,27 @@ fn hot_loops_are_compiled_for_their_level() {
         // Loops over f32 and f64 at once have narrow ones.
         assert!(20 * narrow < wide, "{level}: {narrow} narrow divisions beside {wide}");
     }
+}
+
+/// How many copies for AVX2 there are of the loops over springs' forces, over the cells of self-collision and over
+/// the springs that may be too long, each recognised by what only it computes with whole vectors of f64.
+fn cloth_loops(functions: &BTreeMap<u64, Function>) -> [usize; 3] {
+    let copies = || functions.values().filter(|function| function.name.contains("vectorize_avx2"));
+    let forces = |copy: &&Function| copy.of_f64[0] >= 2 && copy.of_f64[1] >= 2;
+    let cells = |copy: &&Function| copy.of_f64[..2] == [0, 0] && copy.of_f64[2] >= 2 && copy.of_f64[3] >= 1;
+    let limit = |copy: &&Function| {
+        let called = copy.calls.iter().filter_map(|address| functions.get(address));
+        copy.of_f64[2] >= 2 && called.into_iter().any(|called| called.name.contains("shorten"))
+    };
+    [copies().filter(forces).count(), copies().filter(cells).count(), copies().filter(limit).count()]
+}
+
+#[test]
+fn the_loops_of_the_cloth_are_among_them() {
+    let Some(functions) = of_the_program() else { return };
+    let [forces, cells, limit] = cloth_loops(&functions);
+    assert_eq!(forces, 2, "forces with Verlet's scheme, and forces apart");
+    assert_eq!([cells, limit], [1, 1], "cells of self-collision, and the stretch limit");
 }
 
 #[test]
