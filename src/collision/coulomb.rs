@@ -238,7 +238,7 @@ mod tests {
             "box": {"origin": [-0.3, 0.1, 0], "size": [0.4, 0.8, 1], "friction": 0}}"#;
         let scene = load_text("a.json", text, &Overrides::default()).unwrap().scene;
         let count = 4000;
-        let random = |i: u64| (splitmix64(i) >> 11) as f64 / 2.0_f64.powi(53) * 2.4 - 1.2;
+        let random = |i: u64| (splitmix64(i) >> 11) as f64 * (0.5 * f64::EPSILON) * 2.4 - 1.2;
         let [mut x, mut last] = [0, 1].map(|_| Points::zeros(count).unwrap());
         for p in 0..count {
             let i = 6 * p as u64;

@@ -94,7 +94,7 @@ impl Shape for Plane {
         let height = dot(to - self.point, self.normal);
         let height = if self.above[p] { height } else { -height };
         let sizes = [self.point, from, to].map(|x| x.x.abs() + x.y.abs() + x.z.abs());
-        !(height > ROUNDING * (sizes[0] + sizes[1] + sizes[2]))
+        height.is_nan() | (height <= ROUNDING * (sizes[0] + sizes[1] + sizes[2]))
     }
 
     fn friction(&self) -> f64 {
