@@ -9,6 +9,7 @@ for (const [id, action] of Object.entries({
   'copy-link': (button) => copy(location.href.replace(/#.*/, '') + link(), button),
   'save-png': () => worker.postMessage({ type: 'png' }),
   'save-positions': () => worker.postMessage({ type: 'positions' }),
+  'save-state': () => worker.postMessage({ type: 'state' }),
   'save-scene': () => save(state.scene.replace(/(\.json)?$/, '.json'), sceneText(), 'application/json'),
 })) element(id).addEventListener('click', (event) => action(event.currentTarget));
 

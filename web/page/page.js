@@ -62,8 +62,8 @@ const heard = {
   texture() {},
   file({ what, bytes, frame }) {
     const name = state.scene.replace(/\.json$/, '');
-    if (what === 'png') save(`${name}-${frame}.png`, bytes, 'image/png');
-    else save(`${name}-${frame}.bin`, bytes, 'application/octet-stream');
+    const ending = { png: 'png', positions: 'bin', state: 'state' }[what];
+    save(`${name}-${frame}.${ending}`, bytes, what === 'png' ? 'image/png' : 'application/octet-stream');
   },
 };
 
@@ -88,6 +88,7 @@ function tell(message) {
 /// Opens the moment that the address names.
 function openLink() {
   showError('');
+  knowAddress();
   try {
     state = parseLink(location.hash);
   } catch (text) {
@@ -114,8 +115,28 @@ function link() {
   return formatLink({ ...state, frame: state.paused ? moment?.frame ?? null : null });
 }
 
+/// Shortest time between two changes of the address, in ms: browsers drop changes, links too, beyond 20 a second.
+const ADDRESS_PAUSE = 250;
+let address = { known: '', since: -Infinity, timer: 0 };
+
+/// Makes the address the link to what is shown, at once or soon.
 function showAddress() {
-  if (location.hash !== link()) history.replaceState(null, '', link());
+  clearTimeout(address.timer);
+  // A link that was just followed is not heard of yet, and must not be lost.
+  if (location.hash === link() || location.hash !== address.known) return;
+  const wait = address.since + ADDRESS_PAUSE - performance.now();
+  if (wait > 0) {
+    address.timer = setTimeout(showAddress, wait);
+    return;
+  }
+  history.replaceState(null, '', link());
+  knowAddress();
+  address.since = performance.now();
+}
+
+function knowAddress() {
+  clearTimeout(address.timer);
+  address.known = location.hash;
 }
 
 /// Changes values by path; `null` goes back to those of the file.

@@ -43,6 +43,7 @@ const actions = {
   texture({ name, bytes }) { page.add_texture(name, bytes); postMessage({ type: 'texture', name }); },
   png() { give('png', page.png()); },
   positions() { give('positions', page.positions()); },
+  state() { give('state', page.state()); },
 };
 
 onmessage = ({ data }) => guarded(() => actions[data.type](data));

@@ -18,13 +18,14 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use live::Live;
 use request::Request;
 
-/// The files of the stock scenes.
-const SCENES: [(&str, &str); 5] = [
+/// The files of the stock scenes and of the table.
+const SCENES: [(&str, &str); 6] = [
     ("sphere", include_str!("../../scenes/sphere.json")),
     ("plane", include_str!("../../scenes/plane.json")),
     ("pinned2", include_str!("../../scenes/pinned2.json")),
     ("pinned4", include_str!("../../scenes/pinned4.json")),
     ("selfCollision", include_str!("../../scenes/selfCollision.json")),
+    ("table", include_str!("../../scenes/table.json")),
 ];
 
 /// What the page shows. Errors are texts as the command line prints them.
@@ -139,6 +140,11 @@ impl Page {
     /// The positions as `drape simulate --positions` writes them.
     pub fn positions(&self) -> Vec<u8> {
         self.live.positions()
+    }
+
+    /// The whole state as the file that `drape simulate --save-state` writes.
+    pub fn state(&self) -> Vec<u8> {
+        self.live.state()
     }
 
     /// The command for the picture.

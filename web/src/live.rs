@@ -182,6 +182,11 @@ impl Live {
         })
     }
 
+    /// The whole state as `drape simulate --save-state` writes it.
+    pub(crate) fn state(&self) -> Vec<u8> {
+        self.stage.as_ref().map_or_else(Vec::new, |stage| stage.simulation.snapshot(&stage.scene).encode())
+    }
+
     /// The command for the picture.
     pub(crate) fn command(&self) -> String {
         let Some(stage) = &self.stage else { return String::new() };

@@ -12,6 +12,10 @@ use serde_json::{Value, json};
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_secs(120);
 
+/// The numbers of keys that do something in the browser itself.
+const NUMBERS: [(&str, u32); 6] =
+    [("Tab", 9), ("Enter", 13), ("ArrowLeft", 37), ("ArrowUp", 38), ("ArrowRight", 39), ("ArrowDown", 40)];
+
 /// A page in a browser of its own.
 pub(super) struct DevTools {
     browser: Child,
@@ -136,41 +140,57 @@ impl DevTools {
 
     /// Presses a key.
     pub(super) fn key(&mut self, key: &str, code: &str) {
-        let text = if key.len() == 1 { key } else { "" };
+        let text = match key {
+            "Enter" => "\r",
+            key if key.len() == 1 => key,
+            _ => "",
+        };
         for kind in ["keyDown", "keyUp"] {
             let text = if kind == "keyDown" { text } else { "" };
-            let event = json!({"type": kind, "key": key, "code": code, "text": text});
+            let number = NUMBERS.iter().find(|(name, _)| *name == key).map_or(0, |(_, number)| *number);
+            let event = json!({"type": kind, "key": key, "code": code, "text": text, "windowsVirtualKeyCode": number});
             self.call("Input.dispatchKeyEvent", &event);
         }
     }
 
-    /// Drags with the left button from one point to another, in parts of the element that a selector finds.
-    pub(super) fn drag(&mut self, selector: &str, from: [f64; 2], to: [f64; 2]) {
-        let place = format!(
+    /// A place in the window, given in parts of the element that a selector finds, which is scrolled into sight.
+    fn place(&mut self, selector: &str, [x, y]: [f64; 2]) -> [f64; 2] {
+        let found = self.eval(&format!(
             "(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{block: 'center'}}); \
-             const b = e.getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; }})()"
-        );
-        let found = self.eval(&place);
-        let number = |i: usize| found[i].as_f64().unwrap();
-        let at = |[x, y]: [f64; 2]| [number(0) + x * number(2), number(1) + y * number(3)];
+             const b = e.getBoundingClientRect(); return [b.x + {x} * b.width, b.y + {y} * b.height]; }})()"
+        ));
+        [0, 1].map(|axis| found[axis].as_f64().unwrap())
+    }
+
+    /// Drags with a button of the mouse, `left` or `right`, from one point to another, in parts of the element that a
+    /// selector finds.
+    pub(super) fn drag(&mut self, button: &str, selector: &str, from: [f64; 2], to: [f64; 2]) {
         let half = [0, 1].map(|i| 0.5 * (from[i] + to[i]));
-        for (kind, [x, y], buttons) in [
-            ("mouseMoved", at(from), 0),
-            ("mousePressed", at(from), 1),
-            ("mouseMoved", at(half), 1),
-            ("mouseMoved", at(to), 1),
-            ("mouseReleased", at(to), 0),
+        let held = if button == "right" { 2 } else { 1 };
+        for (kind, at, button, buttons) in [
+            ("mouseMoved", from, "none", 0),
+            ("mousePressed", from, button, held),
+            ("mouseMoved", half, button, held),
+            ("mouseMoved", to, button, held),
+            ("mouseReleased", to, button, 0),
         ] {
-            let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
+            let [x, y] = self.place(selector, at);
             let event =
                 json!({"type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1});
             self.call("Input.dispatchMouseEvent", &event);
         }
     }
 
+    /// Turns the wheel over the middle of the element that a selector finds.
+    pub(super) fn wheel(&mut self, selector: &str, delta: f64) {
+        let [x, y] = self.place(selector, [0.5, 0.5]);
+        let event = json!({"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": delta});
+        self.call("Input.dispatchMouseEvent", &event);
+    }
+
     /// Clicks in the middle of the element with an id.
     pub(super) fn click(&mut self, id: &str) {
-        self.drag(&format!("#{id}"), [0.5, 0.5], [0.5, 0.5]);
+        self.drag("left", &format!("#{id}"), [0.5, 0.5], [0.5, 0.5]);
     }
 }
 

@@ -1,6 +1,8 @@
 //! The live page, as `web/build` makes it.
 
+mod command;
 mod devtools;
+mod files;
 mod same_bits;
 mod using;
 
@@ -8,6 +10,9 @@ use std::path::PathBuf;
 
 use crate::browser::Browser;
 use devtools::DevTools;
+
+/// A link to a moment.
+const PAUSED: &str = "scene=sphere&frame=5&paused&size=320x250";
 
 /// The page; nothing, after a line that says so, if it was not built.
 ///
@@ -37,7 +42,12 @@ fn opened(link: &str, width: u32, dark: bool) -> Option<DevTools> {
 
 /// Goes to the moment of a link and waits until it is shown.
 fn go(tools: &mut DevTools, link: &str) {
-    tools.eval(&format!("location.hash = {link:?}"));
+    // The page hears of the change of its address first, and then this does; the same address is no change.
+    tools.eval(&format!(
+        "new Promise((done) => {{ const before = location.href; \
+         addEventListener('hashchange', () => done(), {{once: true}}); location.hash = {link:?}; \
+         if (location.href === before) done(); }})"
+    ));
     settle(tools);
 }
 

@@ -1,54 +1,11 @@
-//! The live page is used as a person uses it: with mouse and keys, files and links.
+//! The live page is used as a person uses it: with mouse, keys and links.
 
-use std::fs;
-use std::os::unix::fs::symlink;
-use std::process::Command;
+use drape::math;
 
-use drape::math::StateHash;
-use drape::output::png;
-
+use super::command::{check_command, hash_of};
 use super::devtools::DevTools;
-use super::{go, opened, settle};
-use crate::scratch::{SMALL, Scratch};
-
-const PAUSED: &str = "scene=sphere&frame=5&paused&size=320x250";
-
-/// Drops a file with a text on the page.
-fn drop_file(tools: &mut DevTools, name: &str, text: &str) {
-    tools.eval(&format!(
-        "(() => {{ const d = new DataTransfer(); d.items.add(new File([{text:?}], {name:?})); \
-         document.body.dispatchEvent(new DragEvent('drop', {{dataTransfer: d, bubbles: true, cancelable: true}})); }})()"
-    ));
-}
-
-/// The hash of the picture that the page's command makes, run by a shell in a folder with the scenes.
-fn picture_of_command(scratch: &Scratch, command: &str) -> String {
-    if !scratch.path("scenes").exists() {
-        symlink(crate::repository::path("scenes"), scratch.path("scenes")).unwrap();
-    }
-    let program = assert_cmd::cargo::cargo_bin!("drape");
-    let line = command.replacen("drape", &program.display().to_string(), 1);
-    let run = Command::new("bash").args(["-c", &line]).current_dir(scratch.path("")).output().unwrap();
-    assert!(run.status.success(), "{command}: {}", String::from_utf8_lossy(&run.stderr));
-    let name = scratch.names().into_iter().find(|name| name.ends_with(".png")).unwrap();
-    let hash = hash_of(scratch, &name);
-    fs::remove_file(scratch.path(&name)).unwrap();
-    hash
-}
-
-/// The hash of a picture in a file.
-fn hash_of(scratch: &Scratch, name: &str) -> String {
-    let picture = png::read(&scratch.path(name)).unwrap();
-    let mut hash = StateHash::default();
-    picture.rgba.iter().for_each(|pixel| hash.write(&pixel[..3]));
-    format!("{:016x}", hash.finish())
-}
-
-/// The command of what is shown gives the picture that is shown.
-fn check_command(tools: &mut DevTools, scratch: &Scratch) {
-    let (command, shown) = (tools.text("command"), tools.text("picture-hash"));
-    assert_eq!(picture_of_command(scratch, &command), shown, "{command}");
-}
+use super::{PAUSED, go, opened, settle};
+use crate::scratch::Scratch;
 
 #[test]
 fn keys_and_buttons_move_the_cloth() {
@@ -71,7 +28,7 @@ fn keys_and_buttons_move_the_cloth() {
     // The camera: turned by the mouse and by keys, and back.
     settle(&mut tools);
     let (straight, state) = (tools.text("picture-hash"), tools.text("state-hash"));
-    tools.drag("#view", [0.5, 0.5], [0.6, 0.4]);
+    tools.drag("left", "#view", [0.5, 0.5], [0.6, 0.4]);
     settle(&mut tools);
     let turned = tools.text("picture-hash");
     tools.key("ArrowLeft", "ArrowLeft");
@@ -81,6 +38,69 @@ fn keys_and_buttons_move_the_cloth() {
     tools.key(" ", "Space");
     settle(&mut tools);
     assert_eq!((tools.text("picture-hash"), tools.text("state-hash")), (straight, state));
+    assert_eq!(tools.console, Vec::<String>::new());
+}
+
+/// Waits until another picture is shown than the one with the hash `before`; its hash.
+fn next_picture(tools: &mut DevTools, before: &str) -> String {
+    tools.wait(&format!("document.getElementById('picture-hash').textContent !== {before:?}"));
+    settle(tools);
+    tools.text("picture-hash")
+}
+
+#[test]
+fn wheel_and_buttons_of_the_mouse_move_the_camera() {
+    let Some(mut tools) = opened(PAUSED, 1400, false) else { return };
+    settle(&mut tools);
+    let (state, before) = (tools.text("state-hash"), tools.text("picture-hash"));
+    let camera = |tools: &mut DevTools| {
+        let found = tools.eval("[camera.distance, ...camera.target, camera.polar, camera.azimuth]");
+        found.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<f64>>()
+    };
+    let first = camera(&mut tools);
+    // The wheel towards the hand zooms out, and nothing else.
+    tools.wheel("#view", 100.0);
+    let zoomed_picture = next_picture(&mut tools, &before);
+    let zoomed = camera(&mut tools);
+    assert!((zoomed[0] / first[0] - math::exp(0.1)).abs() < 1e-3, "{first:?} {zoomed:?}");
+    assert_eq!(zoomed[1..], first[1..]);
+    // The right button moves the target: what is seen follows the hand.
+    tools.drag("right", "#view", [0.5, 0.5], [0.6, 0.5]);
+    next_picture(&mut tools, &zoomed_picture);
+    let moved = camera(&mut tools);
+    assert_eq!([moved[0], moved[4], moved[5]], [zoomed[0], zoomed[4], zoomed[5]]);
+    let shape = tools.eval("(({clientWidth: w, clientHeight: h}) => w / h)(document.getElementById('view'))");
+    let expected = 0.1 * shape.as_f64().unwrap() * 2.0 * zoomed[0] * math::tan(17.5_f64.to_radians());
+    assert!((zoomed[1] - moved[1] - expected).abs() < 0.02 * expected, "{zoomed:?} {moved:?} {expected}");
+    assert_eq!(tools.text("state-hash"), state, "the cloth does not move");
+    check_command(&mut tools, &Scratch::new());
+    assert_eq!(tools.console, Vec::<String>::new());
+}
+
+#[test]
+fn the_keyboard_alone_reaches_every_control_and_shows_where_it_is() {
+    let Some(mut tools) = opened(&format!("{PAUSED}&shader=custom"), 1400, false) else { return };
+    settle(&mut tools);
+    tools.eval("document.querySelector('details').open = true");
+    let every = "[...document.querySelectorAll('button, input, select, textarea, summary, [tabindex=\"0\"]')]\
+        .filter((e) => e.checkVisibility())";
+    let count = tools.eval(&format!("(window.every = {every}).length")).as_u64().unwrap();
+    assert!(count > 40, "{count}");
+    let mut walked = Vec::new();
+    for _ in 0..count {
+        tools.key("Tab", "Tab");
+        walked.push(tools.eval("every.indexOf(document.activeElement)").as_u64());
+        let outline = tools.eval("getComputedStyle(document.activeElement).outlineStyle");
+        assert_eq!(outline, "solid", "{:?}", tools.eval("document.activeElement.outerHTML"));
+    }
+    assert_eq!(walked, (0..count).map(Some).collect::<Vec<_>>(), "in the order of the page");
+    // A slider and a button do by keys what they do by mouse.
+    tools.eval("document.querySelector('[id=\"slider-cloth.ks\"]').focus()");
+    tools.key("ArrowRight", "ArrowRight");
+    tools.wait("document.getElementById('command').textContent.includes('--set cloth.ks=')");
+    tools.eval("document.getElementById('defaults').focus()");
+    tools.key("Enter", "Enter");
+    tools.wait("!document.getElementById('command').textContent.includes('cloth.ks')");
     assert_eq!(tools.console, Vec::<String>::new());
 }
 
@@ -94,7 +114,7 @@ fn a_slider_changes_the_cloth_and_its_command() {
     let before = (tools.text("state-hash"), tools.text("gauge"));
     let place = "Number(document.querySelector('[id=\"slider-cloth.ks\"]').value) / 1000";
     let from = tools.eval(place).as_f64().unwrap();
-    tools.drag("[id=\"slider-cloth.ks\"]", [from, 0.5], [0.3, 0.5]);
+    tools.drag("left", "[id=\"slider-cloth.ks\"]", [from, 0.5], [0.3, 0.5]);
     settle(&mut tools);
     assert!(tools.text("command").contains("--set cloth.ks="), "{}", tools.text("command"));
     let after = (tools.text("state-hash"), tools.text("gauge"));
@@ -102,6 +122,7 @@ fn a_slider_changes_the_cloth_and_its_command() {
     assert_eq!(tools.text("frame"), "5", "the moment stays");
     check_command(&mut tools, &scratch);
     // The address is a link to this moment.
+    tools.wait("location.hash === link()");
     let (link, picture) = (tools.eval("location.hash"), tools.text("picture-hash"));
     go(&mut tools, "scene=plane&frame=0&paused");
     go(&mut tools, link.as_str().unwrap().trim_start_matches('#'));
@@ -113,33 +134,6 @@ fn a_slider_changes_the_cloth_and_its_command() {
     let run =
         scratch.run(&["render", "scenes/sphere.json", "x.png", "--frame", "3", "--set", "cloth.ks=400000"]);
     assert_eq!((run.code, run.stderr.trim_end()), (Some(5), tools.text("status").as_str()));
-    assert_eq!(tools.console, Vec::<String>::new());
-}
-
-#[test]
-fn a_scene_of_ones_own_has_the_errors_of_the_command_line() {
-    let Some(mut tools) = opened(PAUSED, 390, false) else { return };
-    settle(&mut tools);
-    let scratch = Scratch::new();
-    let picture = tools.text("picture-hash");
-    let broken = SMALL.replace("\"damping\": 0.2", "\"dampning\": 0.2");
-    fs::write(scratch.path("mine.json"), &broken).unwrap();
-    drop_file(&mut tools, "mine.json", &broken);
-    tools.wait("document.getElementById('errors').textContent");
-    let run = scratch.run(&["render", "mine.json", "mine.png"]);
-    assert_eq!(run.stderr.trim_end(), tools.text("errors"));
-    assert_eq!(tools.text("status"), tools.text("errors"));
-    assert_eq!(tools.text("picture-hash"), picture, "the picture stays");
-    fs::write(scratch.path("mine.json"), SMALL).unwrap();
-    drop_file(&mut tools, "mine.json", SMALL);
-    tools.wait("document.getElementById('status').textContent === 'running'");
-    tools.wait("Number(document.getElementById('frame').textContent) > 10");
-    tools.key("p", "KeyP");
-    settle(&mut tools);
-    assert_eq!(tools.text("status"), "paused");
-    check_command(&mut tools, &scratch);
-    go(&mut tools, "scene=sphere&frame=x");
-    assert!(tools.text("status").contains("must be a whole number"), "{}", tools.text("status"));
     assert_eq!(tools.console, Vec::<String>::new());
 }
 
@@ -159,35 +153,6 @@ fn the_page_fits_every_window_and_names_every_control() {
         assert_eq!(nameless, serde_json::json!([]));
         assert_eq!(tools.console, Vec::<String>::new());
     }
-}
-
-#[test]
-fn textures_are_dropped_and_the_scene_can_be_taken_away() {
-    let Some(mut tools) = opened(PAUSED, 1400, false) else { return };
-    settle(&mut tools);
-    let scratch = Scratch::new();
-    let before = tools.text("picture-hash");
-    // A texture of one colour, drawn by the browser itself.
-    tools.eval(
-        "(async () => { const c = new OffscreenCanvas(4, 4); const p = c.getContext('2d'); p.fillStyle = '#336699'; \
-         p.fillRect(0, 0, 4, 4); const d = new DataTransfer(); \
-         d.items.add(new File([await c.convertToBlob()], 'blue.png', {type: 'image/png'})); \
-         document.body.dispatchEvent(new DragEvent('drop', {dataTransfer: d, bubbles: true, cancelable: true})); })()",
-    );
-    tools.wait("document.getElementById('command').textContent.includes('material.texture')");
-    settle(&mut tools);
-    assert_ne!(tools.text("picture-hash"), before);
-    assert!(tools.text("command").contains("--textures textures"), "{}", tools.text("command"));
-    let pixel =
-        "[...document.getElementById('view').getContext('2d').getImageData(160, 200, 1, 1).data].join()";
-    assert_eq!(tools.eval(pixel), "51,102,153,255");
-    // The scene with its changes, as a file, is the scene that is shown.
-    go(&mut tools, "scene=plane&frame=20&paused&shader=normal&size=64x50&set=cloth.ks=700");
-    let text = tools.eval("document.getElementById('text').value");
-    fs::write(scratch.path("taken.json"), text.as_str().unwrap()).unwrap();
-    let hash = scratch.succeed(&["render", "taken.json", "--frame", "20", "--hash"]);
-    assert_eq!(String::from_utf8(hash).unwrap().trim(), tools.text("picture-hash"));
-    assert_eq!(tools.console, Vec::<String>::new());
 }
 
 #[test]
