@@ -58,6 +58,7 @@
 #![forbid(unsafe_code)]
 
 pub mod error;
+pub mod fence;
 pub mod math;
 pub mod lanes;
 pub mod scene;

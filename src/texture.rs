@@ -7,6 +7,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use crate::error::{Error, Kind, Result};
+use crate::fence::fenced;
 
 /// Longest side of a texture, texels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -14,6 +15,9 @@ pub const MAX_SIDE: u32 = 16_384;
 /// Most texels of a texture: 2^26, one gibibyte once decoded. A few kilobytes of compressed file
 /// can ask for far more, so the header is held against this before anything is allocated.
 pub const MAX_TEXELS: u64 = 1 << 26;
+
+/// Bytes of a decoded texel.
+const TEXEL_BYTES: u64 = 16;
 
 /// Most bytes a decoder may hold: [`MAX_TEXELS`] of RGBA at 16 bits, and as much again for its work.
 const MAX_DECODER_BYTES: u64 = 16 * MAX_TEXELS;
@@ -52,11 +56,11 @@ impl Texture {
     /// [`Kind::Scene`], with `name` in the message, if the bytes are of another format, too large,
     /// corrupt or cut short.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self> {
-        let invalid = |why: &dyn std::fmt::Display| {
-            Error::new(Kind::Scene, format!("texture {name} cannot be decoded: {why}")).with_help(format!(
-                "a texture is a PNG or JPEG of at most {MAX_SIDE} a side and {MAX_TEXELS} texels"
-            ))
-        };
+        fenced(|| Self::decode_unfenced(name, bytes)).unwrap_or_else(|why| Err(invalid(name, &why)))
+    }
+
+    fn decode_unfenced(name: &str, bytes: &[u8]) -> Result<Self> {
+        let invalid = |why: &dyn std::fmt::Display| invalid(name, why);
         let mut reader = ImageReader::new(Cursor::new(bytes));
         match image::guess_format(bytes) {
             Ok(ImageFormat::Png) if !png_ends(bytes) => return Err(invalid(&"the PNG is cut short")),
@@ -75,18 +79,24 @@ impl Texture {
         let orientation = orientation(&mut decoder, bytes).map_err(|error| invalid(&error))?;
         let mut image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
         image.apply_orientation(orientation);
-        Ok(Self::from_image(image))
+        Self::from_image(image).ok_or_else(|| {
+            let bytes = u64::from(width) * u64::from(height) * TEXEL_BYTES;
+            invalid(&format_args!("there is no memory for its {width} x {height} texels, {bytes} bytes"))
+        })
     }
 
     /// Eight bits widen to sixteen as 257 c, and 257 c / 65535 = c / 255: nothing is rounded twice.
-    fn from_image(image: DynamicImage) -> Self {
+    /// Nothing if there is no memory for the texels.
+    fn from_image(image: DynamicImage) -> Option<Self> {
         let has_alpha = image.color().has_alpha();
         let transparent = has_alpha && image.to_rgba16().pixels().any(|pixel| pixel[3] != u16::MAX);
         let image = image.into_rgb16();
         let (width, height) = (image.width() as usize, image.height() as usize);
         let unit = |sample: u16| f32::from(sample) / 65535.0;
-        let texels = image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]).collect();
-        Self { width, height, texels, transparent, red: OnceLock::new() }
+        let mut texels = Vec::new();
+        texels.try_reserve_exact(width * height).ok()?;
+        texels.extend(image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]));
+        Some(Self { width, height, texels, transparent, red: OnceLock::new() })
     }
 
     /// A texture of `width` × `height` from RGB in 0..=1, row by row from the top.
@@ -137,6 +147,12 @@ impl Texture {
     pub fn red(&self) -> &[f32] {
         self.red.get_or_init(|| self.texels.iter().map(|&[red, ..]| red).collect())
     }
+}
+
+/// The error of a texture called `name`.
+fn invalid(name: &str, why: &dyn std::fmt::Display) -> Error {
+    Error::new(Kind::Scene, format!("texture {name} cannot be decoded: {why}"))
+        .with_help(format!("a texture is a PNG or JPEG of at most {MAX_SIDE} a side and {MAX_TEXELS} texels"))
 }
 
 /// How a picture is to be turned and mirrored before it is shown, by the Exif data of `bytes`, which `decoder`

@@ -12,6 +12,7 @@ mod browser;
 mod comparing;
 mod choose;
 mod contact;
+mod damaged;
 mod disk;
 mod docs;
 mod errors;

@@ -5,11 +5,16 @@ use std::panic::{self, AssertUnwindSafe};
 
 use crate::session::ui::Ui;
 use drape::error::{Error, Kind};
+use drape::fence;
 
 /// Runs `work` and returns its exit code. A panic in it, on any thread, is printed as an internal error
 /// without a backtrace and returns 70.
 pub(crate) fn guarded(json: bool, work: impl FnOnce() -> u8) -> u8 {
     panic::set_hook(Box::new(move |panic| {
+        // It becomes the error of a file, which is reported as such.
+        if fence::is_within() {
+            return;
+        }
         let place = panic.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
         let cause = message(panic.payload()).replace('\n', " ");
         let error = Error::new(Kind::Internal, format!("internal error: {cause}{place}"));

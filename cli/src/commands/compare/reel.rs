@@ -1,6 +1,5 @@
 //! The pictures of a file: one, or those of an animation in the order in which they are shown.
 
-use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -11,7 +10,8 @@ use image::metadata::LoopCount;
 use image::{AnimationDecoder, ColorType, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits};
 
 use drape::error::{Error, Kind, Result};
-use drape::output::png::Pixels;
+use drape::fence::fenced;
+use drape::output::png::{MAX_FILE_BYTES, Pixels, read_bounded};
 use drape::texture::{MAX_SIDE, orientation};
 
 /// Endings of the names of files with pictures, in lower case.
@@ -43,13 +43,14 @@ impl Reel {
     /// [`Kind::Io`] when it cannot be read or is none of these.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
-        let bytes = fs::read(path).map_err(|e| failed(&name, &e))?;
-        let opened = match image::guess_format(&bytes) {
+        let bytes = read_bounded(path, MAX_FILE_BYTES).map_err(|e| failed(&name, &e))?;
+        let opened = fenced(|| match image::guess_format(&bytes) {
             Ok(ImageFormat::Png) => png(bytes),
             Ok(ImageFormat::Gif) => gif(bytes),
             Ok(ImageFormat::Jpeg) => jpeg(bytes),
             _ => Err("it is no PNG, animated PNG, GIF or JPEG".to_owned()),
-        };
+        });
+        let opened = opened.unwrap_or_else(|why| Err(why.to_owned()));
         let (plays, pictures) = opened.map_err(|e| failed(&name, &e))?;
         Ok(Self { name, plays, pictures })
     }
@@ -67,7 +68,8 @@ impl Reel {
         match &mut self.pictures {
             Pictures::Still(picture) => Ok(picture.take().map(|pixels| Shown { pixels, delay: None })),
             Pictures::Moving(frames) => {
-                frames.next().transpose().map(|frame| frame.map(shown)).map_err(|e| failed(&self.name, &e))
+                let next = fenced(|| frames.next().transpose()).map_err(|why| failed(&self.name, &why))?;
+                next.map(|frame| frame.map(shown)).map_err(|e| failed(&self.name, &e))
             }
         }
     }
