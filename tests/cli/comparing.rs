@@ -63,6 +63,7 @@ fn every_picture_of_an_animation_is_compared() {
         );
         let first = found["first"].as_u64().expect("a picture that differs");
         assert!(first > 0, "the first pictures are equal: {found}");
+        assert!(found["differing_pictures"].as_u64() > Some(1), "and all those after it: {found}");
         let shown = image::open(scratch.path("d.png")).unwrap().into_rgb8();
         assert!(
             shown.pixels().any(|pixel| pixel.0 != [0; 3]),

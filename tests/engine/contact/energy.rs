@@ -77,7 +77,7 @@ fn contact_that_adds_energy_is_stopped_under_any_mode() {
 #[test]
 fn what_starts_inside_leaves_without_speed() {
     let objects = [
-        r#"sphere={"origin":[0.5,0.9,0.5],"radius":0.2,"friction":0.3}"#,
+        r#"sphere={"origin":[0.5,0.9,0.5],"radius":0.3,"friction":0.3}"#,
         r#"box={"origin":[0.5,0.9,0.5],"size":[0.9,0.3,0.9],"friction":0.3}"#,
         r#"plane={"point":[0.5,1.5,0.5],"normal":[0.3,1,0],"friction":0.3}"#,
     ];
@@ -90,6 +90,24 @@ fn what_starts_inside_leaves_without_speed() {
             assert!(end.extremes().speed < bound, "{object}, {sets:?}: {} m/s", end.extremes().speed);
         }
     }
+}
+
+#[test]
+fn what_is_put_outside_at_the_start_loses_the_velocity_of_the_cloth() {
+    let thrown = |objects: &[&str]| {
+        let sets = [objects, &["cloth.velocity=[0,0.5,0]", "sim.gravity=[0,0,0]"]].concat();
+        Simulation::new(&scene(&sets)).unwrap()
+    };
+    let [free, ball] =
+        [thrown(&[]), thrown(&[r#"sphere={"origin":[0.5,0.9,0.5],"radius":0.3,"friction":0.3}"#])];
+    let (mut put, mut kept) = (0, 0);
+    for p in 0..free.positions().len() {
+        let is_put = ball.positions().get(p) != free.positions().get(p);
+        let rests = ball.positions().get(p) == ball.last_positions().get(p);
+        assert_eq!(is_put, rests, "point {p}");
+        *if is_put { &mut put } else { &mut kept } += 1;
+    }
+    assert!(put > 0 && kept > 0, "{put} points were put outside, {kept} not");
 }
 
 /// A ball that pokes a sheet without gravity: no frame ends with more energy, and no entry of contact is above 0.
