@@ -102,9 +102,17 @@ fn mark_near(
     }
 }
 
+/// Whether a way from `from` to `to` may reach the box with these corners.
+#[inline(always)]
+pub(super) fn may_reach_box(from: Vec3, to: Vec3, lower: Vec3, upper: Vec3) -> bool {
+    may_reach(from.x, to.x, lower.x, upper.x)
+        & may_reach(from.y, to.y, lower.y, upper.y)
+        & may_reach(from.z, to.z, lower.z, upper.z)
+}
+
 /// Whether a way from `from` to `to` along an axis may reach the interval from `lower` to `upper`. What is not a number may.
 #[inline(always)]
-pub(super) fn may_reach(from: f64, to: f64, lower: f64, upper: f64) -> bool {
+fn may_reach(from: f64, to: f64, lower: f64, upper: f64) -> bool {
     let margin = ROUNDING * (from.abs() + to.abs() + lower.abs() + upper.abs());
     let (lower, upper) = (lower - margin, upper + margin);
     !((from < lower) & (to < lower)) & !((from > upper) & (to > upper))

@@ -1,6 +1,6 @@
 //! The box: a point inside it is put on its nearest face.
 
-use super::contact::{Entry, Shape, may_reach};
+use super::contact::{Entry, Shape, may_reach_box};
 use crate::scene::{self, Vec3};
 
 /// A box, ready for the step.
@@ -130,10 +130,7 @@ impl Shape for Cuboid {
 
     #[inline(always)]
     fn is_near(&self, _p: usize, from: Vec3, to: Vec3) -> bool {
-        let Self { lower, upper, .. } = self;
-        may_reach(from.x, to.x, lower.x, upper.x)
-            & may_reach(from.y, to.y, lower.y, upper.y)
-            & may_reach(from.z, to.z, lower.z, upper.z)
+        may_reach_box(from, to, self.lower, self.upper)
     }
 
     fn friction(&self) -> f64 {

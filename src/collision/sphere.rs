@@ -1,6 +1,6 @@
 //! The sphere: a point inside it is put on its surface.
 
-use super::contact::{Entry, Shape, may_reach};
+use super::contact::{Entry, Shape, may_reach_box};
 use crate::cloth::{dot, len};
 use crate::scene::{Sphere, Vec3};
 
@@ -50,9 +50,7 @@ impl Shape for Sphere {
     #[inline(always)]
     fn is_near(&self, _p: usize, from: Vec3, to: Vec3) -> bool {
         let [lower, upper] = [-self.radius, self.radius].map(|radius| self.origin.add_scalar(radius));
-        may_reach(from.x, to.x, lower.x, upper.x)
-            & may_reach(from.y, to.y, lower.y, upper.y)
-            & may_reach(from.z, to.z, lower.z, upper.z)
+        may_reach_box(from, to, lower, upper)
     }
 
     fn friction(&self) -> f64 {

@@ -2,7 +2,10 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Part, Whole, is_its_only_part, texels::square};
+use super::{
+    Lane, Part, Whole, is_its_only_part,
+    texels::{mix, square},
+};
 
 /// A number of binary64. A type of its own, because `f64` has no operations with plain `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,15 +142,13 @@ macro_rules! one_lane {
                 let square = square(texels, place, down);
                 [0, 1, 2].map(|channel: usize| {
                     let [a, b, c, d] = square.map(|texel| Self::from(texel[channel]));
-                    let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
-                    top + (bottom - top) * lower
+                    mix!(mix!(a, b, right), mix!(c, d, right), lower)
                 })
             }
             #[inline(always)]
             fn bilinear_plane(texels: &[f32], place: i32, down: u32, [right, lower]: [Self; 2]) -> Self {
                 let [a, b, c, d] = square(texels, place, down).map(Self::from);
-                let (top, bottom) = (a + (b - a) * right, c + (d - c) * right);
-                top + (bottom - top) * lower
+                mix!(mix!(a, b, right), mix!(c, d, right), lower)
             }
             #[inline(always)]
             fn transpose((): (), mut texel: impl FnMut(usize) -> [f32; 4]) -> [Self; 3] {

@@ -26,6 +26,7 @@ macro_rules! mix {
         $a + ($b - $a) * $f
     };
 }
+pub(super) use mix;
 
 /// The texel at `place`, the one to its right, and both `down` further on.
 #[inline(always)]

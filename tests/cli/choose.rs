@@ -1,5 +1,7 @@
 //! `choose` and `horizon` answer people and programs, and what they write is used by the other commands.
 
+use std::fs;
+
 use crate::scratch::Scratch;
 
 #[test]
@@ -40,7 +42,7 @@ fn what_cannot_be_promised_is_1_with_the_reason() {
     }
     assert_eq!(scratch.run(&["choose", "small.json", "--within", "1mm", "--frame", "0"]).code, Some(4));
     let no_cloth = ["choose", "small.json", "--within", "1mm", "--frame", "5", "--patch", "none.json"];
-    std::fs::write(scratch.path("none.json"), r#"{"cloth": null}"#).unwrap();
+    fs::write(scratch.path("none.json"), r#"{"cloth": null}"#).unwrap();
     assert_eq!(scratch.run(&no_cloth).code, Some(4));
 }
 
@@ -76,7 +78,10 @@ fn the_summary_says_what_was_run_and_how_wrong_it_is() {
     };
     assert!(line("settings").contains("verlet, 30 steps in each of 90 frames a second, f64; start report"));
     assert!(line("heights").contains("sagged by"), "{text}");
-    assert!(line("longest").contains("of its rest length") && line("rest").ends_with("not yet"), "{text}");
+    assert!(
+        line("longest").contains("of its rest length") && line("rest").ends_with("not seen for 0.5 s"),
+        "{text}"
+    );
     assert!(line("error").contains("a run of 60 steps a frame"), "{text}");
     let summary = scratch.json(&[&arguments[..], &["--json"]].concat());
     assert_eq!(summary["settings"]["steps_per_frame"], 30);
@@ -94,4 +99,10 @@ fn the_summary_says_what_was_run_and_how_wrong_it_is() {
     let plain = scratch.json(&["simulate", "small.json", "--frames", "10", "--json"]);
     assert_eq!(plain["state_hash"], summary["state_hash"]);
     assert!(plain["error"].is_null());
+    let both = scratch.run(&[&arguments[..], &["--positions", "-"]].concat());
+    assert_eq!(both.code, Some(2), "the summary has no place: {}", both.stderr);
+    // What there is not is not told.
+    fs::write(scratch.path("bare.json"), "{}").unwrap();
+    let bare = String::from_utf8(scratch.succeed(&["simulate", "bare.json", "--frames", "3"])).unwrap();
+    assert!(!["heights", "longest", "rest "].iter().any(|name| bare.contains(name)), "{bare}");
 }

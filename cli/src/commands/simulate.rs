@@ -11,12 +11,11 @@ use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
-use crate::run::summary::{Seen, Summary, hex};
+use crate::run::summary::{Seen, Summary, hex, springs_of};
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
-use drape::cloth::springs;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
@@ -105,9 +104,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     saving.finish(&simulation)?;
     args.positions.finish(&scene, &simulation)?;
     args.write_table(table.as_ref())?;
-    let springs = scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum());
     if args.bench {
-        session.print_json(&bench(&simulation, springs, ended.elapsed))?;
+        session.print_json(&bench(&simulation, &scene, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
         let error = args.error(&scene, &simulation, session)?;
         let seen = Seen { rest: ended.rest, hashes, heights, limited, error };
@@ -134,7 +132,8 @@ impl Args {
     }
 
     fn check_outputs(&self, session: &Session) -> Result<()> {
-        outputs::check_stdout(self.fills_stdout(), self.hash || self.bench || session.ui.json)?;
+        let prints = self.hash || self.bench || self.error || session.ui.json;
+        outputs::check_stdout(self.fills_stdout(), prints)?;
         let positions = self.positions.output()?;
         let positions = positions.iter().map(|(path, content)| (path.as_path(), *content));
         let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
@@ -174,14 +173,14 @@ impl Args {
     }
 }
 
-fn bench(simulation: &Simulation, springs: usize, elapsed: Duration) -> Bench {
+fn bench(simulation: &Simulation, scene: &Scene, elapsed: Duration) -> Bench {
     let substeps = simulation.steps();
     Bench {
         #[expect(clippy::cast_precision_loss, reason = "a number of steps is far below 2^53")]
         ns_per_substep: elapsed.as_secs_f64() * 1e9 / substeps.max(1) as f64,
         substeps,
         points: simulation.positions().len(),
-        springs,
+        springs: springs_of(scene),
         threads: rayon::current_num_threads(),
         stages: simulation.timings().unwrap_or_default(),
     }

@@ -7,6 +7,7 @@ use super::advance::Rest;
 use drape::cloth::{Counters, springs};
 use drape::diagnostics::energy::Energy;
 use drape::diagnostics::ledger::Ledger;
+use drape::diagnostics::rest::QUIET;
 use drape::scene::{Scene, Sim};
 use drape::simulation::Simulation;
 use drape_lab::choose::OwnError;
@@ -38,7 +39,7 @@ pub(crate) struct Summary {
     /// What the stretch limit left, if the scene has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     stretch: Option<Stretch>,
-    /// Whether the cloth is at rest.
+    /// Whether the cloth was seen at rest; a run from a state does not know what was before it.
     at_rest: bool,
     /// The figures of the rest, if it is.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -144,7 +145,7 @@ impl Summary {
             frames: simulation.frame(),
             time: simulation.time(),
             points: simulation.positions().len(),
-            springs: scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum()),
+            springs: springs_of(scene),
             state_hash: hex(simulation.state_hash()),
             settings: settings(scene),
             in_words: in_words(&scene.sim),
@@ -180,13 +181,22 @@ impl Summary {
             counters.springs_limited,
             energy.total(),
         );
-        text.extend(self.heights.map(Heights::text));
-        text += &format!("longest      spring {:.6} of its rest length\n", self.largest_stretch);
-        text.extend(self.stretch.map(|stretch| stretch.text()));
-        text += &self.rest.map_or_else(|| "rest         not yet\n".to_owned(), |rest| rest.text());
+        if let Some(heights) = self.heights {
+            text += &heights.text();
+            text += &format!("longest      spring {:.6} of its rest length\n", self.largest_stretch);
+            text.extend(self.stretch.map(|stretch| stretch.text()));
+            text += &self
+                .rest
+                .map_or_else(|| format!("rest         not seen for {QUIET} s\n"), |rest| rest.text());
+        }
         text.extend(self.error.map(|error| format!("error        {}\n", error.text())));
         text + &format!("state hash   {state_hash}\n")
     }
+}
+
+/// The number of springs of a scene's cloth.
+pub(crate) fn springs_of(scene: &Scene) -> usize {
+    scene.cloth.as_ref().map_or(0, |cloth| springs::counts(cloth).iter().sum())
 }
 
 /// The keys of `sim` with their values.
