@@ -52,27 +52,23 @@ pub fn page(study: &Study, scene: &str, live: Option<&Live>) -> Result<String> {
     Ok(text + &method_section(&study.extent) + page::END)
 }
 
-/// What the model leaves out, and what it keeps although it has no limit.
+/// What the model leaves out, after a comma.
 fn without(extent: &Extent) -> String {
     let left_out: Vec<&str> = [("stretch_limit", "stretch limit"), ("self_collision", "self-collision")]
         .into_iter()
         .filter(|(key, _)| !extent.kept.contains(key))
         .map(|(_, name)| name)
         .collect();
-    let note = kept(&extent.kept).map_or_else(String::new, |note| format!("({}) ", escape(&note)));
-    match left_out.is_empty() {
-        true => note.trim_end().to_owned(),
-        false => format!("{note}without {}", left_out.join(" and ")),
-    }
+    if left_out.is_empty() { String::new() } else { format!("without {} and ", left_out.join(" and ")) }
 }
 
 fn introduction(study: &Study) -> String {
     let times: Vec<String> =
         study.extent.tenths.iter().map(|t| format!("{}", f64::from(*t) / 10.0)).collect();
     format!(
-        "Compared is the start of the motion, at {} s, {} and with damping per \
+        "Compared is the start of the motion, at {} s, {}with damping per \
          second, whatever the scene says: all methods approach only this model as their steps shrink. Methods that \
-         are named after one of these options use it. {}</p>\n\
+         are named after one of these options use it. {}{}</p>\n\
          <p>Each point is a method at a number of steps per second. The horizontal axis is the cost. The vertical axis \
          is the error: the root mean square distance of the points from those of the reference. The reference is the \
          model with so many steps that halving their number changes the positions by less than the grey floor. An \
@@ -82,6 +78,7 @@ fn introduction(study: &Study) -> String {
         times.join(", "),
         without(&study.extent),
         cloths(study),
+        kept(&study.extent.kept).map_or_else(String::new, |note| format!(" Note: {}.", escape(&note))),
         study.extent.repeats,
         match study.extent.only.is_empty() {
             true => String::new(),
