@@ -18,6 +18,8 @@ pub enum Kind {
     Unstable,
     /// Input or output failed, or an outside tool is missing: exit code 6.
     Io,
+    /// A limit of time or memory that the user has set was reached: exit code 6.
+    Limit,
     /// A fault of this program: exit code 70.
     Internal,
     /// Stopped by signal number N: exit code 128 + N (130 for Ctrl-C, 143 for SIGTERM).
@@ -33,7 +35,7 @@ impl Kind {
             Self::Scene => 3,
             Self::Nothing => 4,
             Self::Unstable => 5,
-            Self::Io => 6,
+            Self::Io | Self::Limit => 6,
             Self::Internal => 70,
             Self::Signal(number) => 128_u8.saturating_add(number),
         }

@@ -59,6 +59,7 @@
 
 pub mod error;
 pub mod fence;
+pub mod bounded;
 pub mod math;
 pub mod lanes;
 pub mod scene;

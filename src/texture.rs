@@ -16,6 +16,9 @@ pub const MAX_SIDE: u32 = 16_384;
 /// can ask for far more, so the header is held against this before anything is allocated.
 pub const MAX_TEXELS: u64 = 1 << 26;
 
+/// Most texels of all textures of a scene, four gibibytes.
+pub const MAX_ALL_TEXELS: u64 = 1 << 28;
+
 /// Bytes of a decoded texel.
 const TEXEL_BYTES: u64 = 16;
 
@@ -31,6 +34,19 @@ pub struct Texture {
     transparent: bool,
     /// Red alone, once it was asked for.
     red: OnceLock<Vec<f32>>,
+}
+
+/// Checks that `count` texels of several textures are at most [`MAX_ALL_TEXELS`].
+///
+/// # Errors
+/// [`Kind::Scene`] with the bytes that they take.
+pub(crate) fn check_all_texels(count: u64) -> Result<()> {
+    if count <= MAX_ALL_TEXELS {
+        return Ok(());
+    }
+    let bytes = count.saturating_mul(TEXEL_BYTES);
+    let message = format!("the textures are too large: {count} texels take {bytes} bytes");
+    Err(Error::new(Kind::Scene, message).with_help(format!("together they may have {MAX_ALL_TEXELS} texels")))
 }
 
 impl PartialEq for Texture {
@@ -81,7 +97,9 @@ impl Texture {
         image.apply_orientation(orientation);
         Self::from_image(image).ok_or_else(|| {
             let bytes = u64::from(width) * u64::from(height) * TEXEL_BYTES;
-            invalid(&format_args!("there is no memory for its {width} x {height} texels, {bytes} bytes"))
+            let message =
+                format!("there is no memory for the {width} x {height} texels of {name}, {bytes} bytes");
+            Error::new(Kind::Io, message)
         })
     }
 

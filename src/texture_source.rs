@@ -1,13 +1,12 @@
 //! Where textures come from: the set inside the program, or a folder of one's own.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
+use crate::bounded;
 use crate::cubemap::{Cubemap, FACES};
 use crate::error::{Error, Kind, Result};
-use crate::texture::Texture;
+use crate::texture::{Texture, check_all_texels};
 
 /// Endings that are tried in a folder, in this order.
 pub const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
@@ -72,20 +71,23 @@ impl TextureSource {
     /// # Errors
     /// As [`texture`](Self::texture) for each face, and [`Kind::Scene`] if the faces do not fit.
     pub fn cubemap(&self, name: &str) -> Result<Cubemap> {
-        let [px, nx, py, ny, pz, nz] = match self {
+        let read: &dyn Fn(usize) -> Result<Texture> = match self {
             Self::Memory(files) if files.contains_key(&format!("{name}/{}", FACES[0])) => {
-                FACES.map(|face| in_memory(files, &format!("{name}/{face}")))
+                &|face| in_memory(files, &format!("{name}/{}", FACES[face]))
             }
             Self::BuiltIn | Self::Memory(_) if is_built_in_cubemap(name) => {
-                CUBE.map(|(face, bytes)| Texture::decode(face, bytes))
+                &|face| Texture::decode(CUBE[face].0, CUBE[face].1)
             }
             Self::BuiltIn | Self::Memory(_) => return Err(unknown("cube map", name, BUILT_IN_CUBE)),
             Self::Folder(folder) => {
                 check_name(name)?;
-                FACES.map(|face| read_texture(&folder.join(name), face))
+                &|face| read_texture(&folder.join(name), FACES[face])
             }
         };
-        Cubemap::new(name, [px?, nx?, py?, ny?, pz?, nz?])
+        let first = read(0)?;
+        // The others must be as large: whether all are too large is known before they are read.
+        check_all_texels(first.texels().len() as u64 * FACES.len() as u64)?;
+        Cubemap::new(name, [first, read(1)?, read(2)?, read(3)?, read(4)?, read(5)?])
     }
 }
 
@@ -137,17 +139,10 @@ fn read_texture(folder: &Path, name: &str) -> Result<Texture> {
     }
 }
 
-/// The bytes of a file. Reading stops at the bound, whatever length the file claims.
+/// The bytes of a file.
 fn read(file: &Path) -> Result<Vec<u8>> {
     let failed = |why| Error::new(Kind::Io, format!("cannot read texture {}: {why}", file.display()));
-    let mut bytes = Vec::new();
-    let opened = File::open(file).map_err(failed)?;
-    opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        let message = format!("texture {} is larger than {MAX_FILE_BYTES} bytes", file.display());
-        return Err(Error::new(Kind::Scene, message));
-    }
-    Ok(bytes)
+    bounded::read(file, MAX_FILE_BYTES).map_err(failed)
 }
 
 fn missing(folder: &Path, name: &str) -> Error {

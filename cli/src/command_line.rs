@@ -1,16 +1,19 @@
 //! The grammar of the command line: the commands, and the options of all of them.
 
 use std::io::{self, IsTerminal};
+use std::time::Duration;
 
 use clap::builder::RangedU64ValueParser;
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
+use crate::args::limit;
 use crate::commands::{
     animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
     simulate, stability, study, sweep,
 };
 use crate::session::files::atomic;
+use crate::session::stop::Limits;
 use crate::session::ui::{Color, Ui};
 use drape::error::{Error, Kind, Result};
 
@@ -27,7 +30,7 @@ pub(crate) struct CommandLine {
 /// The exit codes, for scripts.
 const EXIT_CODES: &str = "Exit codes: 0 success, 1 a comparison or check found a difference, 2 wrong usage, \
     3 a scene or texture is invalid, 4 nothing to do, 5 the simulation is unstable, 6 a file or an external program \
-    failed, 70 internal error, 130 and 143 stopped by a signal.";
+    failed or a limit was reached, 70 internal error, 128 + N stopped by signal N (130 Ctrl-C, 143 SIGTERM).";
 
 /// The options of every command.
 #[derive(clap::Args)]
@@ -35,6 +38,12 @@ struct Global {
     /// Number of threads, 1 to 1024 (default: all cores). Results have the same bytes for every number
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
+    /// End after this many seconds with exit code 6; whole files are kept
+    #[arg(long, global = true, value_name = "S", value_parser = limit::seconds)]
+    time_limit: Option<Duration>,
+    /// End with exit code 6 when more memory is in use, such as 500M or 2G; whole files are kept
+    #[arg(long, global = true, value_name = "SIZE", value_parser = limit::bytes)]
+    memory_limit: Option<u64>,
     /// Print only errors on standard error
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
@@ -107,6 +116,11 @@ impl CommandLine {
         }
     }
 
+    /// The limits of time and memory.
+    pub(crate) fn limits(&self) -> Limits {
+        Limits { time: self.global.time_limit, memory: self.global.memory_limit }
+    }
+
     /// The number of threads; 0 means all cores.
     pub(crate) fn threads(&self) -> usize {
         self.global.threads.unwrap_or(0)
@@ -117,7 +131,7 @@ impl CommandLine {
 /// output, everything else is an error of usage. Without any arguments the help goes to standard error.
 pub(crate) fn refuse(refusal: &clap::Error, ui: &Ui) -> u8 {
     if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        ui.note(refusal.render().to_string().trim_end());
+        ui.text(refusal.render().to_string().trim_end());
         return Kind::Usage.exit_code();
     }
     crate::session::exit_code(ui, refused(refusal))
@@ -134,5 +148,6 @@ fn refused(refusal: &clap::Error) -> Result<()> {
     let text = refusal.render().to_string();
     let (message, rest) = text.split_once("\n\n").unwrap_or((&text, ""));
     let message = message.strip_prefix("error: ").unwrap_or(message);
-    Err(Error::new(Kind::Usage, message.trim()).with_help(rest.trim().replace("\n\n", "\n")))
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    Err(Error::new(Kind::Usage, message).with_help(rest.trim().replace("\n\n", "\n")))
 }

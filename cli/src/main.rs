@@ -15,18 +15,19 @@ mod command_line;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
-use drape::error::{Error, Kind, Result};
+use drape::error::Result;
 
 use command_line::{Command, CommandLine};
 use commands::{
     animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
     simulate, stability, study, sweep,
 };
-use session::signals::Signals;
+use session::stop::{self, Stop};
 use session::ui::Ui;
-use session::{Session, exit_code, guard};
+use session::{Session, exit_code, guard, threads};
 
 fn main() -> ExitCode {
+    stop::exit_without_memory();
     let json = std::env::args_os().any(|argument| argument == "--json");
     ExitCode::from(guard::guarded(json, || match CommandLine::try_parse() {
         Ok(arguments) => {
@@ -38,10 +39,8 @@ fn main() -> ExitCode {
 }
 
 fn execute(arguments: &CommandLine, ui: Ui) -> Result<()> {
-    let session = Session { ui, signals: Signals::install()? };
-    rayon::ThreadPoolBuilder::new().num_threads(arguments.threads()).build_global().map_err(|e| {
-        Error::new(Kind::Io, format!("cannot start the threads: {e}")).with_help("lower --threads")
-    })?;
+    let session = Session { ui, stop: Stop::install(arguments.limits(), ui)? };
+    threads::start(arguments.threads(), &session)?;
     match &arguments.command {
         Command::Render(args) => render::run(args, &session),
         Command::Animate(args) => animate::run(args, &session),

@@ -8,6 +8,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod printable;
 pub mod csv;
 pub mod npy;
 pub mod run;

@@ -6,5 +6,6 @@ pub(crate) mod energy_bound;
 pub mod extremes;
 pub mod geometry;
 pub mod ledger;
+pub mod memory;
 pub mod rest;
 pub mod stability;

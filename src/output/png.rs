@@ -1,20 +1,17 @@
 //! PNG files: 8 bits a channel, the same bytes for the same picture.
 
-use std::fs::File;
-use std::io::{self, Cursor, Read};
+use std::io::Cursor;
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
 use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, Limits};
 
+use crate::bounded;
 use crate::error::{Error, Kind, Result};
 use crate::fence::fenced;
 
 /// Largest width and height that is read, in pixels.
 const MAX_SIDE: u32 = 16_384;
-
-/// Most bytes of a file that is read. A picture of the largest size that no encoder could compress has 1 GiB.
-pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// How hard the encoder works.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,22 +66,8 @@ pub fn encode(width: u32, height: u32, samples: &[u8], effort: Effort) -> Result
 /// 16384 x 16384 pixels.
 pub fn read(path: &Path) -> Result<Pixels> {
     let failed = |cause: String| Error::new(Kind::Io, format!("cannot read `{}`: {cause}", path.display()));
-    let bytes = read_bounded(path, MAX_FILE_BYTES).map_err(|e| failed(e.to_string()))?;
+    let bytes = bounded::read(path, bounded::MOST).map_err(|e| failed(e.to_string()))?;
     fenced(|| decode(&bytes)).unwrap_or_else(|why| Err(why.to_owned())).map_err(failed)
-}
-
-/// The bytes of a file of at most `most`. Reading stops at the bound, whatever length the file claims: a device
-/// may have no end.
-///
-/// # Errors
-/// Those of the system, and one that names the bound.
-pub fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most {
-        return Err(io::Error::other(format!("it is larger than {most} bytes")));
-    }
-    Ok(bytes)
 }
 
 /// The picture in PNG bytes; the error says what is wrong with them.

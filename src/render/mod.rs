@@ -10,19 +10,17 @@ use std::mem::take;
 
 use crate::{
     cloth::Points,
+    diagnostics::memory::{Memory, check_available},
     error::{Error, Kind, Result},
     math::StateHash,
     mesh::Mesh,
     raster::{self, DrawCall, Framebuffer, Stages, Stats},
-    scene::{Scene, Vec3},
+    scene::{MAX_SAMPLES, Render, Scene, Vec3},
     texture_source::TextureSource,
 };
 use object::Object;
 use options::round;
 use programs::Programs;
-
-/// Most samples of a picture: 16384 x 16384 pixels of one sample, which take 3 GiB.
-pub const MAX_SAMPLES: u64 = 1 << 28;
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,9 +58,9 @@ impl Renderer {
     /// Reads the textures that the scene's materials need, each once, and no others.
     ///
     /// # Errors
-    /// A texture that is missing or cannot be decoded; more than [`MAX_SAMPLES`].
+    /// A texture that is missing or cannot be decoded; more than [`MAX_SAMPLES`]; no memory for the picture.
     pub fn new(scene: &Scene, source: &TextureSource) -> Result<Self> {
-        check_samples(scene)?;
+        check_memory(scene)?;
         Ok(Self { programs: Programs::new(scene, source)? })
     }
 
@@ -71,8 +69,17 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::new`]; then the scene is still the one before.
     pub fn change_scene(&mut self, scene: &Scene, source: &TextureSource) -> Result<()> {
-        check_samples(scene)?;
+        check_memory(scene)?;
         self.programs.change_scene(scene, source)
+    }
+
+    /// Finds what would be wrong with the picture of a valid scene, textures aside.
+    ///
+    /// # Errors
+    /// A camera that stands in its target; more than [`MAX_SAMPLES`]; no memory for the picture.
+    pub fn check(scene: &Scene) -> Result<()> {
+        check_memory(scene)?;
+        Programs::check(scene)
     }
 
     /// Takes the texels of all textures into `hash`.
@@ -163,13 +170,13 @@ fn cloth_mesh(objects: Vec<Object<'_>>) -> Mesh {
     objects.into_iter().next().map(|object| object.mesh).unwrap_or_default()
 }
 
-/// Checks that the picture of `scene` has at most [`MAX_SAMPLES`].
-fn check_samples(scene: &Scene) -> Result<()> {
-    let [width, height] = scene.render.size.map(u64::from);
-    if width * height * u64::from(scene.render.samples) <= MAX_SAMPLES {
-        return Ok(());
+/// Checks that there is memory for the picture of `scene`, which may not come from a file.
+fn check_memory(scene: &Scene) -> Result<()> {
+    let Render { size: [width, height], samples, .. } = scene.render;
+    if scene.render.sample_count() > MAX_SAMPLES {
+        let message = format!("{width} x {height} pixels of {samples} samples are too many");
+        let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
+        return Err(Error::new(Kind::Scene, message).with_help(help));
     }
-    let message = format!("{width} x {height} pixels of {} samples are too many", scene.render.samples);
-    let help = format!("pixels times samples may be at most {MAX_SAMPLES}");
-    Err(Error::new(Kind::Scene, message).with_help(help))
+    check_available(Memory::of(scene).picture, "the picture")
 }

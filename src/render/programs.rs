@@ -15,7 +15,7 @@ use crate::{
         sampler::{Sampler2d, SamplerCube, Wrap},
         texture, wireframe,
     },
-    texture::Texture,
+    texture::{Texture, check_all_texels},
     texture_source::TextureSource,
 };
 
@@ -45,6 +45,11 @@ impl Programs {
         Ok(programs)
     }
 
+    /// Checks the camera of a scene.
+    pub(super) fn check(scene: &Scene) -> Result<()> {
+        Camera::of(&moved(scene, camera::origin(scene)?)?).map(drop)
+    }
+
     /// The same for another scene; what was read is kept and not read again.
     ///
     /// # Errors
@@ -69,15 +74,24 @@ impl Programs {
             if find(&self.textures, &name).is_none() {
                 let texture = source.texture(&name)?;
                 self.textures.push((name, texture));
+                self.check_texels()?;
             }
         }
         for name in images.environments {
             if find(&self.cubemaps, &name).is_none() {
                 let cubemap = source.cubemap(&name)?;
                 self.cubemaps.push((name, cubemap));
+                self.check_texels()?;
             }
         }
         Ok(())
+    }
+
+    /// Checks that the textures together have at most [`MAX_ALL_TEXELS`].
+    fn check_texels(&self) -> Result<()> {
+        let faces = self.cubemaps.iter().flat_map(|(_, cubemap)| cubemap.faces());
+        let all = self.textures.iter().map(|(_, texture)| texture).chain(faces);
+        check_all_texels(all.map(|texture| texture.texels().len() as u64).sum())
     }
 
     /// Takes the texels of all textures into `hash`.

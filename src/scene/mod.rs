@@ -45,7 +45,7 @@ pub use plan::{Images, Item, plan};
 pub use render::{Filter, Render};
 pub use shader::Shader;
 pub use sim::{Contact, Damping, Integrator, Precision, SelfCollision, Sim, Start};
-pub use validate::MAX_OBJECTS;
+pub use validate::{MAX_OBJECTS, MAX_SAMPLES};
 
 /// Everything a scene file says, with every default filled in. By default it is the scene of a file that
 /// says nothing: `{}`.

@@ -29,6 +29,14 @@ keys! {
     }
 }
 
+impl Render {
+    /// The samples of all pixels.
+    pub fn sample_count(&self) -> u64 {
+        let [width, height] = self.size.map(u64::from);
+        width * height * u64::from(self.samples)
+    }
+}
+
 choices! {
     /// How textures are looked up (`render.filter`).
     pub enum Filter {

@@ -17,6 +17,9 @@ use super::{
 /// Most objects of a scene: they are numbered in 8 bits, and 0 is the background.
 pub const MAX_OBJECTS: usize = 255;
 
+/// Most samples of a picture: 16384 x 16384 pixels of one sample, which take 3 GiB.
+pub const MAX_SAMPLES: u64 = 1 << 28;
+
 /// Makes every check of `scene`, read from `document`, whose values were read without an error.
 pub(super) fn validate(diagnostics: &mut Diagnostics, document: &Node, scene: &Scene) {
     Checks { diagnostics, document, scene }.run();
@@ -41,6 +44,7 @@ impl Checks<'_> {
         self.only_verlet();
         self.friction();
         self.near_and_far();
+        self.sample_count();
         self.object_count();
     }
 
@@ -208,6 +212,20 @@ impl Checks<'_> {
         self.error(near.or(far), "", finding);
     }
 
+    fn sample_count(&mut self) {
+        let [width, height] = self.scene.render.size;
+        let samples = self.scene.render.samples;
+        if self.scene.render.sample_count() <= MAX_SAMPLES || !self.clean(&[SIZE, "render.samples"]) {
+            return;
+        }
+        let message = format!("{width} x {height} pixels of {samples} samples are too many");
+        let finding = Finding::new("scene::too_many_samples", message)
+            .key(SIZE)
+            .also(self.span("render.samples"), "times this")
+            .help(format!("pixels times samples may be at most {MAX_SAMPLES}"));
+        self.error(self.span(SIZE), "", finding);
+    }
+
     fn object_count(&mut self) {
         let scene = self.scene;
         let count = scene.materials().count();
@@ -243,5 +261,6 @@ impl Checks<'_> {
     }
 }
 
+const SIZE: &str = "render.size";
 const W: &str = "cloth.num_width_points";
 const H: &str = "cloth.num_height_points";

@@ -312,7 +312,7 @@ fn a_signal_keeps_finished_pictures_and_no_other_file() {
     use std::time::{Duration, Instant};
     let scratch = Scratch::new();
     for (out, says) in
-        [("f/%d.png", "run the same command again to draw the rest"), ("a.apng", "nothing was written")]
+        [("f/%d.png", "run the same command again to do the rest"), ("a.apng", "nothing was written")]
     {
         let arguments = ["animate", "small.json", out, "--frames", "0..100000000", "--size", "64x64"];
         let mut child = scratch.command(&arguments).stderr(Stdio::piped()).spawn().unwrap();

@@ -293,10 +293,30 @@ fn check_tells_everything_and_is_3_if_any_scene_is_wrong() {
 }
 
 #[test]
+fn check_fails_where_render_would() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("set")).expect("a folder");
+    fs::create_dir(scratch.path("set/texture_1.png")).expect("a folder in place of a picture");
+    let read = ["--set", "material.shader=texture"];
+    for (arguments, code) in [
+        (&[&read[..], &["--set", "material.texture=granite"]].concat(), "check::texture"),
+        (&[&read[..], &["--textures", "set"]].concat(), "check::texture"),
+        (&vec!["--set", "material.shader=mirror", "--textures", "set"], "check::texture"),
+    ] {
+        let render =
+            scratch.run(&[&["render", "small.json", "out.png", "--frame", "0"], &arguments[..]].concat());
+        let check = [&["check", "small.json", "--json"], &arguments[..]].concat();
+        let run = scratch.run(&check);
+        assert_eq!((run.code, render.code), (Some(3), Some(3)), "{arguments:?}: {}", render.stderr);
+        let files: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+        assert_eq!(files["files"][0]["errors"][0]["code"], code, "{files}");
+    }
+}
+
+#[test]
 fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("set")).expect("a folder");
-    let texture = ["--set", "material.shader=texture", "--set", "material.texture=granite"];
     let stiff = ["--set", "cloth.ks=1e12"];
     for (arguments, codes, says) in [
         (&[][..], &[][..], "valid"),
@@ -307,13 +327,9 @@ fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
             "built in: cube",
         ),
         (&["--textures", "set"], &[], "valid"),
-        (&texture, &["check::texture"], "granite"),
-        (&["--set", "material.shader=texture", "--textures", "set"], &["check::texture"], "from textures/"),
-        (&["--set", "material.shader=mirror", "--textures", "set"], &["check::texture"], "posx"),
         (&["--set", "material.shader=texture"], &[], "valid"),
         (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
         (&stiff, &["check::unstable"], "dt·ω"),
-        (&[&texture[..], &stiff].concat(), &["check::texture", "check::unstable"], "granite"),
     ] {
         let arguments = [&["check", "small.json", "--set", "cloth.thickness=0"], arguments].concat();
         let text = String::from_utf8(scratch.succeed(&arguments)).expect("text");
@@ -332,7 +348,12 @@ fn a_picture_larger_than_memory_is_3() {
     let scratch = Scratch::new();
     let large = ["render", "small.json", "out.png", "--size", "16384x16384", "--samples", "4"];
     let (error, _) = fails(&scratch, &large, 3, "scene");
-    assert!(error["help"].as_str().is_some_and(|help| help.contains("268435456")), "{error}");
+    let found = &error["diagnostics"][0];
+    assert_eq!((&found["code"], &found["key"]), (&"scene::too_many_samples".into(), &"render.size".into()));
+    assert!(found["help"].as_str().is_some_and(|help| help.contains("268435456")), "{error}");
+    // What would be drawn is checked without drawing it.
+    let large = ["--set", "render.size=[16384,16384]", "--set", "render.samples=4"];
+    assert_eq!(scratch.run(&[&["check", "small.json"], &large[..]].concat()).code, Some(3));
 }
 
 #[test]

@@ -22,9 +22,12 @@ mod files;
 mod gallery;
 mod golden;
 mod goldens;
+mod injected;
+mod limits;
 mod live;
 #[path = "../support/mistakes.rs"]
 mod mistakes;
+mod outside_text;
 mod pages;
 mod positions;
 mod readers;

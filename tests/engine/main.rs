@@ -8,10 +8,10 @@
 
 mod cloth;
 mod contact;
+mod dependencies;
 mod gl;
 mod integrators;
 mod layers;
-mod msrv;
 mod output;
 mod pages;
 mod promises;

@@ -4,11 +4,12 @@ use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{ChildStdin, Command, Stdio};
 
 use super::format::{Animation, Format, MAX_FPS, Playback};
 use crate::session::files::staged::Staged;
 use crate::session::files::target::no_temporary;
+use crate::session::program::Program;
 use drape::error::{Error, Kind, Result};
 
 /// The row of the table.
@@ -41,21 +42,10 @@ const MOST_QUOTED: u64 = 2000;
 /// A video that ffmpeg is encoding.
 struct Mp4 {
     // Dropped first, so that nothing writes to the file when it is removed.
-    ffmpeg: Running,
+    ffmpeg: Program,
     staged: Staged,
     pictures: Option<ChildStdin>,
     messages: File,
-}
-
-/// A program that is ended when this is dropped.
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
 }
 
 /// Checks, before long work, that ffmpeg can be started.
@@ -64,7 +54,8 @@ impl Drop for Running {
 /// [`Kind::Io`] with the command that encodes `video` from numbered pictures.
 fn find_ffmpeg(video: &Path, playback: Playback) -> Result<()> {
     let quiet = |command: &mut Command| {
-        command.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status()
+        command.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        Program::start(command).and_then(|program| program.wait())
     };
     match quiet(&mut Command::new("ffmpeg")) {
         Ok(status) if status.success() => Ok(()),
@@ -102,22 +93,20 @@ impl Mp4 {
         let staged = Staged::create(path)?;
         let messages = tempfile::tempfile().map_err(|e| no_temporary(&e))?;
         let stderr = messages.try_clone().map_err(|e| staged.failed(&e))?;
-        let mut ffmpeg = Command::new("ffmpeg")
-            .args(arguments(staged.temporary(), playback))
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(stderr)
-            .spawn()
+        let mut command = Command::new("ffmpeg");
+        command.args(arguments(staged.temporary(), playback));
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(stderr);
+        let ffmpeg = Program::start(&mut command)
             .map_err(|e| missing(path, playback, &format!("ffmpeg cannot be started: {e}")))?;
-        let pictures = ffmpeg.stdin.take();
-        Ok(Self { ffmpeg: Running(ffmpeg), staged, pictures, messages })
+        let pictures = ffmpeg.input();
+        Ok(Self { ffmpeg, staged, pictures, messages })
     }
 
     /// The error of a failed run, with what ffmpeg wrote to standard error.
     fn failed(&mut self, cause: &str) -> Error {
         // At the end of its input ffmpeg exits.
         self.pictures = None;
-        let status = self.ffmpeg.0.wait().map_or_else(|e| e.to_string(), |status| status.to_string());
+        let status = self.ffmpeg.wait().map_or_else(|e| e.to_string(), |status| status.to_string());
         let mut messages = Vec::new();
         let read = self.messages.seek(SeekFrom::Start(0));
         let read = read.and_then(|_| (&self.messages).take(MOST_QUOTED).read_to_end(&mut messages));
@@ -139,7 +128,7 @@ impl Animation for Mp4 {
 
     fn finish(mut self: Box<Self>) -> Result<()> {
         self.pictures = None;
-        match self.ffmpeg.0.wait() {
+        match self.ffmpeg.wait() {
             Ok(status) if status.success() => {}
             Ok(_) => return Err(self.failed("it ended with an error")),
             Err(e) => return Err(self.failed(&e.to_string())),

@@ -1,9 +1,10 @@
 //! Simulating, drawing and encoding side by side: while one picture is drawn, the cloth is simulated on to
 //! the next one and the picture before is encoded. Each of the three works in order, so that the bytes do
-//! not depend on which is faster.
+//! not depend on which is faster. Where no threads can be started, they follow each other.
 
 use std::ops::Range;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::Mutex;
+use std::sync::mpsc::sync_channel;
 use std::thread::{self, ScopedJoinHandle};
 
 use super::format::{Animation, Playback};
@@ -13,6 +14,7 @@ use super::target::Target;
 use crate::run::advance::warn_of_unsolved;
 use crate::session::Session;
 use crate::session::files::outputs;
+use crate::session::leftovers::locked;
 use crate::session::progress::Progress;
 use drape::cloth::Points;
 use drape::error::Result;
@@ -52,6 +54,21 @@ pub(crate) struct Drawn {
     pub(crate) visible: bool,
 }
 
+/// What the stages work on. The simulation and the file have one user each: the locks never wait.
+struct Work<E> {
+    /// The number of the last picture.
+    last: u64,
+    simulation: Mutex<Simulation>,
+    each: Mutex<E>,
+    /// The file, if all pictures share one.
+    file: Mutex<Option<Box<dyn Animation>>>,
+}
+
+/// What sees the simulation after every frame, and once more at the end.
+pub(crate) trait Each: FnMut(&Simulation, Stage) -> Result<()> + Send {}
+
+impl<T: FnMut(&Simulation, Stage) -> Result<()> + Send> Each for T {}
+
 /// Something that belongs to picture number `k`.
 type Numbered<T> = (u64, T);
 
@@ -65,7 +82,7 @@ impl Pipeline<'_> {
 
     fn first_missing(&self, pictures: impl Iterator<Item = u64>, session: &Session) -> Result<Option<u64>> {
         for k in pictures {
-            session.signals.check()?;
+            self.target.check_stop(&session.stop)?;
             if !self.has(k) {
                 return Ok(Some(k));
             }
@@ -73,29 +90,57 @@ impl Pipeline<'_> {
         Ok(None)
     }
 
-    /// Simulates, draws and encodes the missing pictures up to number `last`; `each` sees the simulation after
-    /// every frame, and once more at the end.
+    /// Simulates, draws and encodes the missing pictures up to number `last`.
     pub(crate) fn run(
         &self,
         last: u64,
         simulation: Simulation,
-        each: impl FnMut(&Simulation, Stage) -> Result<()> + Send,
+        each: impl Each,
         session: &Session,
     ) -> Result<Drawn> {
         let file = self.target.open(self.playback, self.schedule.count())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
+        let work =
+            Work { last, simulation: Mutex::new(simulation), each: Mutex::new(each), file: Mutex::new(file) };
+        let drawn = match self.side_by_side(&work, session)? {
+            Some(drawn) => drawn,
+            None => self.one_after_another(&work, session)?,
+        };
+        self.target.check_stop(&session.stop)?;
+        let file = locked(&work.file).take();
+        file.map_or(Ok(()), Animation::finish).map(|()| drawn)
+    }
+
+    /// The three stages, the first and the last on threads of their own; nothing if those cannot be started.
+    fn side_by_side<E: Each>(&self, work: &Work<E>, session: &Session) -> Result<Option<Drawn>> {
         thread::scope(|scope| {
             let (states, to_draw) = sync_channel(QUEUE);
             let (pictures, to_encode) = sync_channel(QUEUE);
-            let simulating = scope.spawn(move || self.simulate(last, simulation, &states, each, session));
-            let encoding = scope.spawn(move || self.encode(file, &to_encode));
-            let drawn = self.draw(to_draw, &pictures);
+            let encoding = move || to_encode.into_iter().try_for_each(|picture| self.encode(work, picture));
+            let simulating = move || self.simulate(work, session, |state| Ok(states.send(state).is_ok()));
+            // The encoder first, which does nothing if the other cannot be started.
+            let Ok(encoding) = thread::Builder::new().spawn_scoped(scope, encoding) else { return Ok(None) };
+            let Ok(simulating) = thread::Builder::new().spawn_scoped(scope, simulating) else {
+                return Ok(None);
+            };
+            let mut drawn = Drawn::default();
+            for state in to_draw {
+                if pictures.send(self.draw(state, &mut drawn)).is_err() {
+                    break;
+                }
+            }
             drop(pictures);
             joined(simulating)?;
-            let file = joined(encoding)?;
-            session.signals.check()?;
-            file.map_or(Ok(()), Animation::finish).map(|()| drawn)
+            joined(encoding)?;
+            Ok(Some(drawn))
         })
+    }
+
+    /// The three stages on this thread.
+    fn one_after_another<E: Each>(&self, work: &Work<E>, session: &Session) -> Result<Drawn> {
+        let mut drawn = Drawn::default();
+        self.simulate(work, session, |state| self.encode(work, self.draw(state, &mut drawn)).map(|()| true))?;
+        Ok(drawn)
     }
 
     /// Whether picture `k` is there from an earlier run.
@@ -104,60 +149,46 @@ impl Pipeline<'_> {
     }
 
     /// Sends the state of each missing picture; ends early when the receiver has gone.
-    fn simulate(
+    fn simulate<E: Each>(
         &self,
-        last: u64,
-        mut simulation: Simulation,
-        states: &SyncSender<Numbered<Points>>,
-        mut each: impl FnMut(&Simulation, Stage) -> Result<()>,
+        work: &Work<E>,
         session: &Session,
+        mut send: impl FnMut(Numbered<Points>) -> Result<bool>,
     ) -> Result<()> {
-        let frames = self.schedule.frame(last);
+        let (simulation, each) = (&mut *locked(&work.simulation), &mut *locked(&work.each));
+        let frames = self.schedule.frame(work.last);
         let mut progress = Progress::starting_at(&session.ui, "animating", frames, simulation.frame());
-        for k in (self.pictures.start..=last).filter(|&k| !self.has(k)) {
+        for k in (self.pictures.start..=work.last).filter(|&k| !self.has(k)) {
             while simulation.frame() < self.schedule.frame(k) {
-                session.signals.check()?;
+                self.target.check_stop(&session.stop)?;
                 simulation.advance_frame()?;
                 progress.set(simulation.frame());
-                each(&simulation, Stage::Frame)?;
+                each(simulation, Stage::Frame)?;
             }
-            session.signals.check()?;
-            if states.send((k, simulation.positions().clone())).is_err() {
+            self.target.check_stop(&session.stop)?;
+            if !send((k, simulation.positions().clone()))? {
                 break;
             }
         }
-        warn_of_unsolved(&simulation, session);
-        each(&simulation, Stage::End)
+        warn_of_unsolved(simulation, session);
+        each(simulation, Stage::End)
     }
 
-    /// Draws each state and sends the picture; ends early when the receiver has gone.
-    fn draw(&self, states: Receiver<Numbered<Points>>, pictures: &SyncSender<Numbered<Picture>>) -> Drawn {
-        let mut drawn = Drawn::default();
-        for (k, points) in states {
-            let picture = self.renderer.draw(&points, &self.options);
-            drawn.visible |= picture.stats.fragments > 0;
-            if pictures.send((k, picture)).is_err() {
-                break;
-            }
-            drawn.pictures += 1;
-        }
-        drawn
+    /// The picture of a state.
+    fn draw(&self, (k, points): Numbered<Points>, drawn: &mut Drawn) -> Numbered<Picture> {
+        let picture = self.renderer.draw(&points, &self.options);
+        drawn.visible |= picture.stats.fragments > 0;
+        drawn.pictures += 1;
+        (k, picture)
     }
 
-    /// Encodes each picture, and returns the file if all share one.
-    fn encode(
-        &self,
-        mut file: Option<Box<dyn Animation>>,
-        pictures: &Receiver<Numbered<Picture>>,
-    ) -> Result<Option<Box<dyn Animation>>> {
-        for (k, picture) in pictures {
-            if let Some(file) = &mut file {
-                file.add(&picture.rgb)?;
-            } else if let Some(sequence) = &self.sequence {
-                sequence.write(k, self.schedule.frame(k), &picture)?;
-            }
+    /// Adds a picture to the file, or writes its own.
+    fn encode<E>(&self, work: &Work<E>, (k, picture): Numbered<Picture>) -> Result<()> {
+        match (&mut *locked(&work.file), &self.sequence) {
+            (Some(file), _) => file.add(&picture.rgb),
+            (None, Some(sequence)) => sequence.write(k, self.schedule.frame(k), &picture),
+            (None, None) => Ok(()),
         }
-        Ok(file)
     }
 }
 

@@ -7,6 +7,7 @@ use super::format::{Animation, Format, MAX_FPS, Playback};
 use super::gif::GIF;
 use super::mp4::MP4;
 use super::pattern::Pattern;
+use crate::session::stop::Stop;
 use drape::error::{Error, Kind, Result};
 
 /// The formats of one file.
@@ -106,14 +107,14 @@ impl Target {
         }
     }
 
-    /// The error of a run that ended early; that of a signal says what is kept.
-    pub(crate) fn stopped(&self, error: Error) -> Error {
-        match (self, error.kind) {
-            (Self::Sequence(_), Kind::Signal(number)) => {
-                Error::new(error.kind, format!("stopped by signal {number}; the finished pictures are kept"))
-                    .with_help("run the same command again to draw the rest")
-            }
-            _ => error,
+    /// Fails once the command has to end; numbered pictures are kept.
+    ///
+    /// # Errors
+    /// As [`Stop::check`].
+    pub(crate) fn check_stop(&self, stop: &Stop) -> Result<()> {
+        match self {
+            Self::Sequence(_) => stop.check_keeping("finished pictures"),
+            Self::File(..) => stop.check(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod flag;
 pub(crate) mod frames;
+pub(crate) mod limit;
 pub(crate) mod part;
 pub(crate) mod render;
 pub(crate) mod scene;

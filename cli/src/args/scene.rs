@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::flag::seconds;
 use crate::run::advance::Until;
 use crate::session::Session;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::{self, Flag, Overrides, Scene};
 use drape_lab::page::live::Live;
@@ -71,7 +72,7 @@ impl SceneArgs {
                 .with_help("put the changes into the scene file, or use --set"));
         }
         let failed = |e| Error::new(Kind::Io, format!("cannot read {}: {e}", self.path.display()));
-        let text = std::fs::read_to_string(&self.path).map_err(failed)?;
+        let text = bounded::read_text(&self.path, scene::MAX_FILE).map_err(failed)?;
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         let sets = self.changes.sets.iter().map(|set| ("set", set.as_str()));
         let scene = [("scene", name.as_ref()), ("text", text.as_str())];

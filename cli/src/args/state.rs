@@ -1,12 +1,12 @@
 //! The arguments for states: where a run goes on from, and where it is saved.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::flag::seconds;
 use crate::session::files::atomic;
 use crate::session::files::target::Content;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
@@ -71,8 +71,8 @@ impl StateArgs {
 
 fn read(path: &Path) -> Result<Snapshot> {
     let named = |e: Error| Error { message: format!("{}: {}", path.display(), e.message), ..e };
-    let bytes =
-        fs::read(path).map_err(|e| Error::new(Kind::Io, format!("cannot read {}: {e}", path.display())))?;
+    let bytes = bounded::read(path, bounded::MOST)
+        .map_err(|e| Error::new(Kind::Io, format!("cannot read {}: {e}", path.display())))?;
     Snapshot::decode(&bytes).map_err(named)
 }
 

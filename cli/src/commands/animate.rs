@@ -17,12 +17,12 @@ use crate::args::part::Part;
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
-use crate::run::start::start;
+use crate::run::start::{renderer, start};
 use crate::session::Session;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
-use drape::render::Renderer;
+
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     args.check_outputs(&scene, &target, &schedule)?;
     target.check(playback)?;
     // All inputs are read before anything is simulated.
-    let renderer = Renderer::new(&scene, &args.render.textures())?;
+    let renderer = renderer(&scene, &args.render.textures(), session)?;
     args.render.caution(&scene, &renderer, &session.ui);
     let options = args.render.options(false);
     let sequence = target
@@ -109,7 +109,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
                 Stage::Frame => saving.after_frame(now),
                 Stage::End => saving.finish(now),
             };
-            pipeline.run(last, simulation, save, session).map_err(|e| target.stopped(e))?
+            pipeline.run(last, simulation, save, session)?
         }
         None => Drawn { pictures: 0, visible: true },
     };

@@ -13,8 +13,10 @@ use drape::diagnostics::advice::unstable_at_rest;
 use drape::diagnostics::geometry::{Concern, concerns};
 use drape::diagnostics::stability::Stability;
 use drape::error::{Diagnostic, Error, Kind, Result};
+use drape::render::Renderer;
 use drape::scene::{self, Images, Material, Scene};
 use drape::texture_source::{TextureSource, is_built_in_cubemap, is_built_in_texture};
+use drape_lab::printable;
 
 /// The arguments of `check`.
 #[derive(clap::Args)]
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let mut files = Vec::new();
     for path in &args.paths {
-        session.signals.check()?;
+        session.stop.check()?;
         files.push(check(path, &args.changes, &textures));
     }
     let colored = session.ui.color.applies(std::io::stdout().is_terminal());
@@ -61,7 +63,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let count = files.iter().filter(|file| file.kind.is_some()).count();
     let worst = files.iter().filter_map(|file| file.kind).reduce(worse);
     let total = files.len();
-    session.print(&Report { files }, &text)?;
+    if session.ui.json {
+        session.print_json(&Report { files })?;
+    } else {
+        session.print_text(text)?;
+    }
     match worst {
         None => Ok(()),
         Some(kind) => Err(Error::new(kind, format!("{count} of {total} scene files are not valid"))),
@@ -75,7 +81,7 @@ fn worse(a: Kind, b: Kind) -> Kind {
 
 fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
     let mut findings = Findings {
-        file: path.display().to_string(),
+        file: printable::line(&path.display().to_string()),
         errors: Vec::new(),
         warnings: Vec::new(),
         failure: None,
@@ -85,6 +91,10 @@ fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
         Ok(loaded) => {
             findings.warnings = loaded.warnings;
             findings.warnings.extend(foreseen(&findings.file, &loaded.scene, textures));
+            let errors = of_picture(&loaded.scene, textures);
+            findings.kind = errors.iter().map(|(_, error)| error.kind).reduce(worse);
+            let file = &findings.file;
+            findings.errors = errors.iter().map(|(code, e)| placeless("error", file, code, e)).collect();
         }
         Err(error) => {
             findings.kind = Some(error.kind);
@@ -95,14 +105,21 @@ fn check(path: &Path, changes: &Changes, textures: &TextureSource) -> Findings {
     findings
 }
 
-/// What would stop a later command or make its result wrong, although the scene is valid: a texture that cannot be
-/// read, a geometry that cannot hold, or a step that is unstable.
+/// What keeps the scene from being drawn as it is: its camera, its size, and the textures that its shaders read.
+fn of_picture(scene: &Scene, textures: &TextureSource) -> Vec<(&'static str, Error)> {
+    let picture = Renderer::check(scene).err().map(|error| ("check::picture", error));
+    let Images { textures: images, environments } = Images::of(scene);
+    let unread = unreadable([&BTreeSet::from_iter(images), &BTreeSet::from_iter(environments)], textures);
+    let textures = unread.into_iter().map(|error| ("check::texture", error));
+    picture.into_iter().chain(textures).collect()
+}
+
+/// What would stop a later command or make its result wrong, although the scene is valid: a texture that another
+/// shader would read, a geometry that cannot hold, or a step that is unstable.
 fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
-    let [images, cubes] = names(scene);
-    let images = images.iter().filter_map(|name| textures.texture(name).err());
-    let cubes = cubes.iter().filter_map(|name| textures.cubemap(name).err());
-    let mut warnings: Vec<_> =
-        images.chain(cubes).map(|error| warning(file, "check::texture", &error)).collect();
+    let [images, cubes] = unread_names(scene);
+    let unread = unreadable([&images, &cubes], textures);
+    let mut warnings: Vec<_> = unread.iter().map(|error| warning(file, "check::texture", error)).collect();
     match concerns(scene) {
         Ok(concerns) => warnings.extend(concerns.into_iter().map(|concern| of_geometry(file, concern))),
         Err(error) => warnings.push(warning(file, "check::geometry", &error)),
@@ -111,15 +128,22 @@ fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnost
     warnings
 }
 
-/// The textures and the cube maps to check: those that the shaders of the scene read, and those whose name is
-/// not built in, which only a change of the shader would read.
-fn names(scene: &Scene) -> [BTreeSet<String>; 2] {
+/// The errors of the textures and of the cube maps that cannot be read.
+fn unreadable([images, cubes]: [&BTreeSet<String>; 2], textures: &TextureSource) -> Vec<Error> {
+    let images = images.iter().filter_map(|name| textures.texture(name).err());
+    images.chain(cubes.iter().filter_map(|name| textures.cubemap(name).err())).collect()
+}
+
+/// The textures and the cube maps that only a change of the shader would read, but for those that are built in.
+fn unread_names(scene: &Scene) -> [BTreeSet<String>; 2] {
     let Images { textures, environments } = Images::of(scene);
-    let [mut images, mut cubes] = [textures, environments].map(BTreeSet::from_iter);
+    let [mut images, mut cubes] = [BTreeSet::new(), BTreeSet::new()];
     for Material { texture, height_map, environment, .. } in scene.materials() {
         images.extend([texture, height_map].into_iter().filter(|name| !is_built_in_texture(name)).cloned());
         cubes.extend(Some(environment).filter(|name| !is_built_in_cubemap(name)).cloned());
     }
+    images.retain(|name| !textures.contains(name));
+    cubes.retain(|name| !environments.contains(name));
     [images, cubes]
 }
 
@@ -142,10 +166,15 @@ fn of_geometry(file: &str, concern: Concern) -> Diagnostic {
     Diagnostic { code, message, file: file.to_owned(), line: 0, column: 0, key, help, rendered }
 }
 
-/// A warning of a later error, which belongs to no place in the file.
+/// A warning of a later error.
 fn warning(file: &str, code: &'static str, error: &Error) -> Diagnostic {
+    placeless("warning", file, code, error)
+}
+
+/// A finding that belongs to no place in the file.
+fn placeless(severity: &str, file: &str, code: &'static str, error: &Error) -> Diagnostic {
     let Error { message, help, .. } = error;
-    let rendered = format!("warning[{code}]: {message}\n --> {file}{}", help_lines(help));
+    let rendered = format!("{severity}[{code}]: {message}\n --> {file}{}", help_lines(help));
     let (message, help, file) = (message.clone(), help.clone(), file.to_owned());
     Diagnostic { code, message, file, line: 0, column: 0, key: String::new(), help, rendered }
 }
@@ -161,7 +190,7 @@ impl Findings {
                 1 => ", with a warning".to_owned(),
                 several => format!(", with {several} warnings"),
             };
-            blocks.push(format!("{}: valid{warned}", self.file));
+            blocks.push(printable::lines(&format!("{}: valid{warned}", self.file)));
         }
         blocks.join("\n\n") + "\n"
     }

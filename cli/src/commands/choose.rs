@@ -48,7 +48,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     outputs::check(&args.scene.inputs(), patch)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
     let frames = args.frame.unwrap_or_else(|| frame_at(args.time, &scene));
-    let watch = || session.signals.check();
+    let watch = || session.stop.check();
     let answer = match (args.within, args.budget) {
         (Some(tolerance), _) => choose::within(&source, frames, args.measured(tolerance), &watch),
         (None, Some(budget)) => choose::within_budget(&source, frames, budget, args.measure(), &watch),

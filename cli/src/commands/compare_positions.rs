@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let progress = Tally::open_ended(&session.ui, "looking for the cause, frames simulated");
     let watch = || {
         progress.add(1);
-        session.signals.check()
+        session.stop.check()
     };
     let watch: Watch<'_> = &watch;
     let comparison = Comparison::new(&case, args.tolerance, (!args.no_diagnosis).then_some(watch))?;
@@ -147,7 +147,7 @@ impl Args {
         let mut progress = Progress::new(&session.ui, "simulating", last_frame);
         Ours::simulate(simulation, first_frame, count, |simulation| {
             progress.set(simulation.frame());
-            session.signals.check()
+            session.stop.check()
         })
     }
 

@@ -123,10 +123,10 @@ fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
     let progress = Tally::new(&session.ui, "frames simulated", shot::frames(shots));
     let each_frame = || {
         progress.add(1);
-        session.signals.check()
+        session.stop.check()
     };
     let shown = shot::take(shots, ledger, &each_frame)?;
-    session.signals.check()?;
+    session.stop.check()?;
     Ok(shown)
 }
 

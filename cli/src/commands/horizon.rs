@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let progress = Tally::new(&session.ui, "simulating, frames", frames);
     let watch = || {
         progress.add(1);
-        session.signals.check()
+        session.stop.check()
     };
     let horizon = Horizon::of(&source, &[], frames, &watch)?;
     drop(progress);

@@ -8,6 +8,7 @@ use crate::session::Session;
 use drape::cloth::{Params, springs};
 use drape::diagnostics::advice::largest_ks;
 use drape::diagnostics::geometry::{Concern, concerns};
+use drape::diagnostics::memory::Memory;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::scene::{Cloth, Item, PerKind, Scene, plan};
@@ -73,13 +74,6 @@ struct Bound {
     largest_ks_worst: Option<f64>,
     #[serde(skip)]
     steps_per_frame: u32,
-}
-
-/// The size of the largest arrays, in bytes: a lower bound of the memory of a run.
-#[derive(Serialize)]
-struct Memory {
-    cloth: u64,
-    picture: u64,
 }
 
 /// Prints what the scene needs.
@@ -228,22 +222,6 @@ fn verdict(stability: &Stability) -> &'static str {
         "unstable"
     } else {
         "stable at rest"
-    }
-}
-
-impl Memory {
-    fn of(scene: &Scene) -> Self {
-        // Three numbers each of the position, the last position and the force.
-        const POINT: usize = 3 * 3 * size_of::<f64>();
-        // Colour and depth of a sample.
-        const SAMPLE: usize = 4 * size_of::<f32>();
-        let cloth = scene.cloth.as_ref().map_or(0, |cloth| {
-            let springs: usize = springs::counts(cloth).iter().sum();
-            cloth.num_width_points * cloth.num_height_points * POINT + springs * size_of::<f64>()
-        });
-        let [width, height] = scene.render.size.map(u64::from);
-        let picture = width * height * u64::from(scene.render.samples) * SAMPLE as u64;
-        Self { cloth: cloth as u64, picture }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::args::scene::{Moment, SceneArgs};
 use crate::args::state::StateArgs;
 use crate::run::advance::advance_until;
 use crate::run::bench;
-use crate::run::start::start;
+use crate::run::start::{renderer, start};
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -19,7 +19,7 @@ use drape::error::{Error, Kind, Result};
 use drape::output::png::{self, Effort};
 use drape::output::raw;
 use drape::raster::Stats;
-use drape::render::{Picture, Renderer};
+use drape::render::Picture;
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let path = args.picture_path()?;
     args.check_outputs(&path, &scene, session)?;
     // All inputs are read before anything is simulated.
-    let renderer = Renderer::new(&scene, &args.render.textures())?;
+    let renderer = renderer(&scene, &args.render.textures(), session)?;
     args.render.caution(&scene, &renderer, &session.ui);
     let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
     args.state.restore(&mut simulation, &scene, until.frames)?;
@@ -98,7 +98,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);
     }
     let picture = renderer.draw(simulation.positions(), &options);
-    session.signals.check()?;
+    session.stop.check()?;
     if args.hash {
         print_hash(&picture, &simulation, session)?;
     } else {

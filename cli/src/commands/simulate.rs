@@ -128,7 +128,7 @@ impl Args {
             return Ok(None);
         }
         let source = Source { path: self.scene.path.clone(), overrides: self.scene.overrides() };
-        own_error(&source, scene, now, &|| session.signals.check()).map(Some)
+        own_error(&source, scene, now, &|| session.stop.check()).map(Some)
     }
 
     fn check_outputs(&self, session: &Session) -> Result<()> {

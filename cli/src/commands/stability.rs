@@ -102,7 +102,7 @@ impl Args {
         let progress = Tally::new(&session.ui, "trying", range.end - range.start);
         let done = || {
             progress.add(1);
-            session.signals.check()
+            session.stop.check_keeping("finished results")
         };
         Map::share(scene, cloth, &axes, store, &|number| part.takes(number), &done)?;
         let [made, found] = store.counts();
@@ -122,7 +122,7 @@ impl Args {
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);
-            session.signals.check()
+            session.stop.check_keeping("finished results")
         };
         let map = Map::new(scene, cloth, axes, store, &done)?;
         let rows = extremes::table(&|sets| self.scene.load_with(sets), &mut || done())?;

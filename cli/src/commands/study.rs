@@ -12,6 +12,7 @@ use crate::session::progress::Tally;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
+use drape_lab::printable;
 use drape_lab::store::Store;
 use drape_lab::study::extent::{Extent, KEPT};
 use drape_lab::study::source::Source;
@@ -74,10 +75,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let progress = Tally::new(&session.ui, "studying, steps", steps);
     let watch = |made: u32| {
         progress.add(u64::from(made));
-        session.signals.check().map_err(|stopped| {
-            Error::new(stopped.kind, "stopped; the finished runs are kept")
-                .with_help("run the same command again to do the rest")
-        })
+        session.stop.check_keeping("finished runs")
     };
     let study = study::run(&source, &textures, &extent, &store, &watch)?;
     drop(progress);
@@ -88,8 +86,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     }
     let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
     let results = Results::new(&study, &name, store.counts());
-    let bytes = serde_json::to_vec_pretty(&results).map_err(|e| json_failed(&e))?;
-    atomic::write(&json, &bytes)?;
+    let text = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
+    atomic::write(&json, printable::json(&text).as_bytes())?;
     atomic::write(&table, study::csv(&study).as_bytes())?;
     atomic::write(&page, study::page(&study, &name, live.as_ref())?.as_bytes())?;
     session.ui.note(&format!("{}: page written", page.display()));

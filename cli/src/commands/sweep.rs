@@ -1,6 +1,5 @@
 //! `drape sweep`: one scene with many changes, by any number of workers.
 
-use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -15,7 +14,9 @@ use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::staged::Staged;
 use crate::session::progress::Progress;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
+use drape::scene::MAX_FILE;
 use drape_lab::sweep::plan::{Plan, Text};
 use drape_lab::sweep::report::{self, Counts};
 use drape_lab::sweep::work::{self, Event};
@@ -125,7 +126,7 @@ fn plan(args: &Spec, session: &Session) -> Result<Plan> {
     outputs::make_folder(out)?;
     let staged = Staged::create(&Plan::cases_path_in(out))?;
     let mut cases = BufWriter::new(staged.file()?);
-    let mut check = || session.signals.check();
+    let mut check = || session.stop.check();
     let plan = Plan::make(out, [spec, scene], atomic::write, &mut cases, &mut check)?;
     staged.finish()?;
     plan.publish(atomic::write)?;
@@ -135,8 +136,7 @@ fn plan(args: &Spec, session: &Session) -> Result<Plan> {
 /// A text file, with the name that messages give it.
 fn text(path: &Path, name: String) -> Result<Text> {
     let failed = |cause: String| Error::new(Kind::Io, format!("cannot read {}: {cause}", path.display()));
-    let bytes = fs::read(path).map_err(|e| failed(e.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| failed("it is not text in UTF-8".to_owned()))?;
+    let text = bounded::read_text(path, MAX_FILE).map_err(|e| failed(e.to_string()))?;
     Ok(Text { name, text })
 }
 
@@ -154,14 +154,9 @@ fn work(plan: &Plan, part: Part, session: &Session) -> Result<()> {
             }
             Event::Damaged(what) => session.ui.caution(&what, "it is run again"),
         }
-        session.signals.check().map_err(stopped)
+        session.stop.check_keeping("finished cases")
     };
     work::work(plan, |number| part.takes(number), u64::from(std::process::id()), &watch)
-}
-
-fn stopped(error: Error) -> Error {
-    Error { message: "stopped; the finished cases are kept".to_owned(), ..error }
-        .with_help("run the same command again to do the rest")
 }
 
 /// Writes the report.
@@ -173,7 +168,7 @@ fn report(out: &Out, plan: &Plan, made: Option<u64>, session: &Session) -> Resul
         if let Event::Damaged(what) = event {
             session.ui.caution(&what, "run `drape sweep work` again");
         }
-        session.signals.check()
+        session.stop.check()
     };
     let (page, counts) = report::write(plan, [&mut csv as &mut dyn Write, &mut json], &watch)?;
     staged.into_iter().try_for_each(Staged::finish)?;

@@ -141,13 +141,13 @@ fn advance_while(
     let mut progress = Progress::starting_at(&session.ui, "simulating", frames, simulation.frame());
     let mut continues = each(simulation)?;
     while continues && simulation.frame() < frames {
-        session.signals.check()?;
+        session.stop.check()?;
         simulation.advance_frame()?;
         progress.set(simulation.frame());
         continues = each(simulation)?;
     }
     drop(progress);
-    session.signals.check()?;
+    session.stop.check()?;
     warn_of_unsolved(simulation, session);
     let elapsed = started.elapsed();
     session.ui.remark(&format!("simulated {} frames in {:.3} s", simulation.frame(), elapsed.as_secs_f64()));

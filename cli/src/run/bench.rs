@@ -43,7 +43,7 @@ pub(crate) fn run(
     let stats = renderer.draw_into(&mut framebuffer, points, options);
     let (mut totals, mut stages) = (Vec::new(), Vec::new());
     for _ in 0..runs {
-        session.signals.check()?;
+        session.stop.check()?;
         let started = Instant::now();
         let (_, times) = renderer.draw_timed(&mut framebuffer, points, options);
         totals.push(started.elapsed());

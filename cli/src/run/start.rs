@@ -3,9 +3,12 @@
 use crate::session::Session;
 use drape::cloth::Points;
 use drape::diagnostics::geometry::{Concern, STARTS_INSIDE, concerns};
+use drape::diagnostics::memory::Memory;
 use drape::error::Result;
+use drape::render::Renderer;
 use drape::scene::{Contact, Scene};
 use drape::simulation::Simulation;
+use drape::texture_source::TextureSource;
 use drape_lab::run::start;
 use drape_lab::run::warning::Warning;
 
@@ -33,6 +36,7 @@ pub(crate) fn start_from(
     allow_unstable: bool,
     session: &Session,
 ) -> Result<Simulation> {
+    session.stop.check_memory(Memory::of(scene).cloth, "the cloth")?;
     let (simulation, warning) = start::start(scene, frames, x, allow_unstable)?;
     if x.is_none() {
         warn_of_start(scene, session)?;
@@ -41,6 +45,15 @@ pub(crate) fn start_from(
         session.ui.caution(&message, &help);
     }
     Ok(simulation)
+}
+
+/// The renderer of `scene`, with its textures.
+///
+/// # Errors
+/// As [`Renderer::new`]; [`Kind::Limit`](drape::error::Kind::Limit).
+pub(crate) fn renderer(scene: &Scene, textures: &TextureSource, session: &Session) -> Result<Renderer> {
+    session.stop.check_memory(Memory::of(scene).picture, "the picture")?;
+    Renderer::new(scene, textures)
 }
 
 /// Warns of points that start inside an object, which `coulomb` puts on its surface.

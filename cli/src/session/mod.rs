@@ -1,35 +1,40 @@
-//! What every command shares: messages on standard error, progress, signals, and the files it writes.
+//! What every command shares: messages on standard error, progress, what stops it, and the files it writes.
 
+pub(crate) mod leftovers;
+pub(crate) mod memory;
+pub(crate) mod program;
 pub(crate) mod ui;
 pub(crate) mod progress;
-pub(crate) mod signals;
+pub(crate) mod stop;
 pub(crate) mod guard;
 pub(crate) mod files;
+pub(crate) mod threads;
 
 use serde::Serialize;
 
 use drape::error::{Error, Kind, Result};
+use drape_lab::printable;
 use files::atomic;
 use files::target::SIGPIPE;
-use signals::Signals;
+use stop::Stop;
 use ui::Ui;
 
 /// What every command is given besides its arguments.
 pub(crate) struct Session {
     pub(crate) ui: Ui,
-    pub(crate) signals: Signals,
+    pub(crate) stop: Stop,
 }
 
 impl Session {
     /// Prints a result to standard output: as JSON with `--json`, otherwise as text.
     pub(crate) fn print(&self, value: &impl Serialize, text: &str) -> Result<()> {
-        if self.ui.json { self.print_json(value) } else { self.print_text(text) }
+        if self.ui.json { self.print_json(value) } else { self.print_text(printable::lines(text)) }
     }
 
     /// Prints a result that is always JSON: one object on one line.
     pub(crate) fn print_json(&self, value: &impl Serialize) -> Result<()> {
         let json = serde_json::to_string(value).map_err(|e| json_failed(&e))?;
-        self.print_text(json + "\n")
+        self.print_text(printable::json(&json) + "\n")
     }
 
     /// Prints a result that is always text.

@@ -5,10 +5,26 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::session::leftovers::locked;
 use crate::session::ui::{self, Ui};
 
 /// Shortest time between two lines where there is no terminal.
 const PAUSE: Duration = Duration::from_secs(5);
+
+/// How far the command has come, for the message of one that ends before its time.
+static REACHED: Mutex<Option<Reached>> = Mutex::new(None);
+
+#[derive(Clone, Copy)]
+struct Reached {
+    what: &'static str,
+    done: u64,
+    total: u64,
+}
+
+/// How far the command has come, such as `simulating: 20 of 80`, once it has begun long work.
+pub(crate) fn reached() -> Option<String> {
+    locked(&REACHED).map(|Reached { what, done, total }| count(what, done, total))
+}
 
 /// The progress of work on one thread.
 pub(crate) struct Progress<'a> {
@@ -35,11 +51,13 @@ impl<'a> Progress<'a> {
         let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what, total));
         bar.iter().for_each(|bar| bar.set_position(before));
         bar.iter().for_each(ProgressBar::reset_eta);
+        *locked(&REACHED) = Some(Reached { what, done: before, total });
         Self { ui, what, total, before, bar, started: now, told: now }
     }
 
     /// Shows that `done` pieces are done.
     pub(crate) fn set(&mut self, done: u64) {
+        *locked(&REACHED) = Some(Reached { what: self.what, done, total: self.total });
         if let Some(bar) = &self.bar {
             bar.set_position(done);
         } else if self.told.elapsed() >= PAUSE {
@@ -98,16 +116,18 @@ const EARLY: u64 = 20;
 
 /// `done` of `total` and, after a twentieth of what was not done `before`, the seconds left at the same speed.
 fn line(what: &str, [before, done]: [u64; 2], total: u64, elapsed: Duration) -> String {
-    if total == u64::MAX {
-        return format!("{what}: {done}");
-    }
     let (left, new) = (total.saturating_sub(done), done.saturating_sub(before));
-    if left == 0 || new < (total.saturating_sub(before)) / EARLY {
-        return format!("{what}: {done} of {total}");
+    if total == u64::MAX || left == 0 || new < (total.saturating_sub(before)) / EARLY {
+        return count(what, done, total);
     }
     #[expect(clippy::cast_precision_loss, reason = "an estimate for people")]
     let seconds = elapsed.as_secs_f64() * left as f64 / new.max(1) as f64;
-    format!("{what}: {done} of {total}, about {seconds:.0} s left")
+    format!("{}, about {seconds:.0} s left", count(what, done, total))
+}
+
+/// `done` of `total`, where anyone knows that.
+fn count(what: &str, done: u64, total: u64) -> String {
+    if total == u64::MAX { format!("{what}: {done}") } else { format!("{what}: {done} of {total}") }
 }
 
 #[cfg(test)]

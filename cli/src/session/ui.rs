@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 
 use drape::error::{Diagnostic, Error, Kind};
+use drape_lab::printable;
 
 /// When to use colours (`--color`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -48,14 +49,21 @@ impl Ui {
     /// Prints a line only with `-v`.
     pub(crate) fn remark(&self, text: &str) {
         if self.verbose && !self.json {
-            line(text);
+            line(&printable::lines(text));
         }
     }
 
     /// Prints a line, unless with `-q`.
     pub(crate) fn note(&self, text: &str) {
         if !self.quiet && !self.json {
-            line(text);
+            line(&printable::line(text));
+        }
+    }
+
+    /// Prints a text of several lines, unless with `-q`.
+    pub(crate) fn text(&self, text: &str) {
+        if !self.quiet && !self.json {
+            line(&printable::lines(text));
         }
     }
 
@@ -63,7 +71,7 @@ impl Ui {
     pub(crate) fn warn(&self, warning: &Diagnostic) {
         if self.quiet {
         } else if self.json {
-            line(&serde_json::json!({ "warning": warning }).to_string());
+            line(&printable::json(&serde_json::json!({ "warning": warning }).to_string()));
         } else {
             line(&self.paint(&warning.rendered));
         }
@@ -71,12 +79,14 @@ impl Ui {
 
     /// Prints a warning that belongs to no place in a file, unless with `-q` or `--json`.
     pub(crate) fn caution(&self, message: &str, help: &str) {
-        self.note(&self.paint(&format!("warning: {message}{}", help_lines(help))));
+        if !self.quiet && !self.json {
+            line(&self.paint(&format!("warning: {}{}", printable::line(message), help_lines(help))));
+        }
     }
 
     /// Prints an error.
     pub(crate) fn error(&self, error: &Error) {
-        line(&if self.json { json(error) } else { self.pretty(error) });
+        line(&if self.json { printable::json(&json(error)) } else { self.pretty(error) });
     }
 
     /// Whether progress is shown.
@@ -88,9 +98,9 @@ impl Ui {
         let mut blocks: Vec<_> = error.diagnostics.iter().map(|d| self.paint(&d.rendered)).collect();
         // The number of errors is added only where there are several.
         if blocks.len() != 1 {
-            blocks.push(self.paint(&format!("error: {}", error.message)));
+            blocks.push(self.paint(&format!("error: {}", printable::line(&error.message))));
         }
-        blocks.join("\n\n") + &help_lines(&error.help)
+        blocks.join("\n\n") + &printable::lines(&help_lines(&error.help))
     }
 
     fn paint(&self, text: &str) -> String {
@@ -107,14 +117,15 @@ pub(crate) fn help_lines(help: &str) -> String {
     }
 }
 
-/// Colours the word before the first colon of a message, if `colored`.
+/// A message of which a terminal only shows the text; the word before the first colon is coloured, if `colored`.
 pub(crate) fn paint(text: &str, colored: bool) -> String {
+    let text = printable::lines(text);
     match text.split_once(':') {
         Some((word, rest)) if colored => {
             let color = if word.starts_with("error") { "\x1b[1;31m" } else { "\x1b[1;33m" };
             format!("{color}{word}\x1b[0m:{rest}")
         }
-        _ => text.to_owned(),
+        _ => text,
     }
 }
 
@@ -147,6 +158,7 @@ fn kind_name(kind: Kind) -> &'static str {
         Kind::Nothing => "nothing",
         Kind::Unstable => "unstable",
         Kind::Io => "io",
+        Kind::Limit => "limit",
         Kind::Internal => "internal",
         Kind::Signal(_) => "signal",
     }

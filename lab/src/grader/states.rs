@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::npy;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 
 /// The positions of one frame: x y z of each point in metres, row by row.
@@ -25,7 +26,7 @@ pub struct Numbers {
 /// [`Kind::Io`] when the file cannot be read or does not hold numbers.
 pub fn read_numbers(path: &Path) -> Result<Numbers> {
     let failed = failed(path);
-    let bytes = fs::read(path).map_err(|e| failed(e.to_string()))?;
+    let bytes = bounded::read(path, bounded::MOST).map_err(|e| failed(e.to_string()))?;
     if bytes.starts_with(npy::MAGIC) {
         let (numbers, shape) = npy::decode(&bytes).map_err(failed)?;
         let grid = match shape.as_slice() {

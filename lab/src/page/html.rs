@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use crate::printable;
+
 /// The style of every page. Plots use the custom properties, so that they follow the theme.
 const STYLE: &str = "\
 :root{color-scheme:light dark;--ink:#1c1c1e;--soft:#63636b;--line:#d4d4da;--paper:#fff;--shade:#f4f4f7;\
@@ -60,9 +62,13 @@ pub fn table(head: &[&str], cells: Cells, rows: impl Iterator<Item = Vec<String>
     format!("<div class=\"wide\"><table{class}>\n<tr>{head}</tr>\n{rows}</table></div>\n")
 }
 
-/// Text that stands for itself in HTML.
+/// Text that stands for itself in HTML and SVG, where it may be of several lines.
 pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    printable::lines(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// `value` with at most four significant digits.
@@ -120,8 +126,8 @@ mod tests {
 
     #[test]
     fn a_page_escapes_its_title_and_fetches_nothing() {
-        let text = head("<a&\"b\">") + &image("\"", b"foobar") + END;
-        assert_eq!(text.matches("&lt;a&amp;&quot;b&quot;&gt;").count(), 2);
+        let text = head("<a&\"b\"\u{1b}>") + &image("\"", b"foobar") + END;
+        assert_eq!(text.matches("&lt;a&amp;&quot;b&quot;␛&gt;").count(), 2);
         assert!(text.contains("alt=\"&quot;\" src=\"data:image/png;base64,Zm9vYmFy\""));
         assert!(!text.contains("http") && !text.contains("<script"));
     }

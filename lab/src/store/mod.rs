@@ -22,6 +22,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use address::Address;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::math::StateHash;
 
@@ -76,7 +77,7 @@ impl Store {
 
     /// What is stored at `key`.
     pub(crate) fn read<T: DeserializeOwned>(&self, key: Address) -> Entry<T> {
-        match fs::read_to_string(self.path(key)) {
+        match bounded::read_text(&self.path(key), bounded::MOST) {
             Ok(text) => decode(&text).map_or(Entry::Damaged, Entry::Whole),
             Err(e) if e.kind() == ErrorKind::NotFound => Entry::Missing,
             Err(_) => Entry::Damaged,

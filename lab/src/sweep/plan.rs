@@ -3,7 +3,7 @@
 //! `plan.json` has the texts of the SPEC file and of the scene as they were, so that nothing that is edited later
 //! mixes with it; `cases.jsonl` has a line for each case; `results/` is the store of the records.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::case::Case;
 use super::measures;
 use crate::store::{Store, WriteFile};
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::sweep::Spec;
 
@@ -120,7 +121,7 @@ impl Plan {
             let error = Error::new(Kind::Io, format!("cannot read the plan `{}`: {cause}", path.display()));
             error.with_help("plan the sweep first: drape sweep plan SPEC OUT")
         };
-        let bytes = fs::read(&path).map_err(|e| failed(e.to_string()))?;
+        let bytes = bounded::read(&path, bounded::MOST).map_err(|e| failed(e.to_string()))?;
         let stored: Stored = serde_json::from_slice(&bytes).map_err(|e| failed(e.to_string()))?;
         if stored.version != VERSION {
             return Err(failed(format!(

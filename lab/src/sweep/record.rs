@@ -1,11 +1,11 @@
 //! What came of a case.
 
 use std::collections::BTreeMap;
-use std::fs;
 
 use serde::{Deserialize, Serialize};
 
 use crate::store::{Address, Entry, Store};
+use drape::bounded;
 use drape::error::{Error, Result};
 use drape::math::StateHash;
 
@@ -89,7 +89,7 @@ impl Store {
 
     /// The bytes of the picture of a record, if they are those that were written.
     pub(super) fn picture(&self, address: Address, record: &Record) -> Option<Vec<u8>> {
-        let bytes = fs::read(self.beside(address, PICTURE)).ok()?;
+        let bytes = bounded::read(&self.beside(address, PICTURE), bounded::MOST).ok()?;
         (record.picture.as_deref() == Some(&hash(&bytes))).then_some(bytes)
     }
 

@@ -1,5 +1,7 @@
 //! A finding drawn for people: the line of the file with a caret under the place.
 
+use std::borrow::Cow;
+
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
 use super::finding::Finding;
@@ -66,15 +68,20 @@ fn snippet<'a>(sources: &'a [Source], marks: &[Mark<'a>]) -> Option<Snippet<'a, 
         let span = on_one_line(source, span);
         kind.span(span.start - offset..span.end - offset).label((!label.is_empty()).then_some(label))
     });
-    Some(Snippet::source(text).line_start(line).path(&source.name).annotations(annotations))
+    Some(Snippet::source(text).line_start(line).path(shown(&source.name)).annotations(annotations))
 }
 
 /// The place by name alone.
 fn origin(sources: &[Source], place: Option<Span>) -> Option<Origin<'_>> {
-    let Some(place) = place else { return sources.first().map(|source| Origin::path(&source.name)) };
+    let Some(place) = place else { return sources.first().map(|source| Origin::path(shown(&source.name))) };
     let source = sources.get(place.source)?;
     let (line, column) = source.line_column(place.start);
-    Some(Origin::path(&source.name).line(line).char_column(column))
+    Some(Origin::path(shown(&source.name)).line(line).char_column(column))
+}
+
+/// A name on one line, whatever is in it.
+fn shown(name: &str) -> Cow<'_, str> {
+    if name.contains('\n') { name.replace('\n', "\u{240A}").into() } else { name.into() }
 }
 
 /// A span that does not run over its first line's end.

@@ -103,7 +103,7 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
         not_compared: a.others.union(&b.others).map(shown).collect(),
     };
     for name in in_a.intersection(&in_b) {
-        session.signals.check()?;
+        session.stop.check()?;
         match pair::compare(&args.expected.join(name), &args.actual.join(name), rules) {
             Ok((comparison, pictures)) => {
                 if args.html.is_some() {

@@ -9,9 +9,10 @@ use image::codecs::png::PngDecoder;
 use image::metadata::LoopCount;
 use image::{AnimationDecoder, ColorType, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits};
 
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::fence::fenced;
-use drape::output::png::{MAX_FILE_BYTES, Pixels, read_bounded};
+use drape::output::png::Pixels;
 use drape::texture::{MAX_SIDE, orientation};
 
 /// Endings of the names of files with pictures, in lower case.
@@ -43,7 +44,7 @@ impl Reel {
     /// [`Kind::Io`] when it cannot be read or is none of these.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
-        let bytes = read_bounded(path, MAX_FILE_BYTES).map_err(|e| failed(&name, &e))?;
+        let bytes = bounded::read(path, bounded::MOST).map_err(|e| failed(&name, &e))?;
         let opened = fenced(|| match image::guess_format(&bytes) {
             Ok(ImageFormat::Png) => png(bytes),
             Ok(ImageFormat::Gif) => gif(bytes),

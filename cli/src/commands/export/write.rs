@@ -87,6 +87,11 @@ impl Writer<'_> {
         }
         let library = self.library();
         let name = library.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
+        if name.as_ref().is_some_and(|name| name.contains(char::is_control)) {
+            let message =
+                "the file of the materials has a control character in its name, which an OBJ cannot hold";
+            return Err(Error::new(Kind::Usage, message).with_help("name the mesh otherwise"));
+        }
         if let Some(library) = &library {
             atomic::write(library, obj::materials(parts).as_bytes())?;
             self.write_textures(library, parts)?;

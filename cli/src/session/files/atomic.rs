@@ -3,13 +3,12 @@
 //! The bytes go to a temporary file in the same folder, which is synced and then renamed. Standard output,
 //! devices and pipes are written directly.
 
-use std::fs::{File, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use tempfile::NamedTempFile;
-
 use super::target::{Content, Target, failed, folder, target};
+use super::temporary::Temporary;
 use drape::error::{Error, Kind, Result};
 
 /// Writes `bytes` to `path` as one complete file.
@@ -62,29 +61,9 @@ fn probe(file: &Path) -> io::Result<()> {
 }
 
 fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut temporary = temporary_beside(file)?;
-    temporary.write_all(bytes)?;
-    temporary.flush()?;
-    persist(temporary, file)
-}
-
-/// Syncs a complete temporary file and gives it the name `file`.
-pub(crate) fn persist(temporary: NamedTempFile, file: &Path) -> io::Result<()> {
-    temporary.as_file().sync_all()?;
-    temporary.persist(file).map(drop).map_err(|e| e.error)
-}
-
-/// An empty temporary file next to `file`, with the permissions that `file` has or would be created with.
-pub(crate) fn temporary_beside(file: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".drape-");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let temporary = builder.tempfile_in(folder(file))?;
-    if let Ok(old) = File::open(file).and_then(|f| f.metadata()) {
-        temporary.as_file().set_permissions(old.permissions())?;
-    }
-    Ok(temporary)
+    let temporary = Temporary::beside(file)?;
+    temporary.as_file().write_all(bytes)?;
+    temporary.persist(file)
 }
 
 #[cfg(test)]

@@ -4,17 +4,16 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
-use super::atomic::{self, persist, temporary_beside};
+use super::atomic;
 use super::target::{Target, failed, no_temporary, target};
+use super::temporary::Temporary;
 use drape::error::Result;
 
 /// A temporary file that [`Staged::finish`] renames to its place; dropped before that, it is removed.
 #[derive(Debug)]
 pub(crate) struct Staged {
     path: PathBuf,
-    temporary: NamedTempFile,
+    temporary: Temporary,
 }
 
 impl Staged {
@@ -24,8 +23,10 @@ impl Staged {
     /// As [`atomic::write`].
     pub(crate) fn create(path: &Path) -> Result<Self> {
         let temporary = match target(path)? {
-            Target::File(file) => temporary_beside(&file).map_err(|e| failed(path, &e))?,
-            Target::Stdout | Target::Stream(_) => NamedTempFile::new().map_err(|e| no_temporary(&e))?,
+            Target::File(file) => Temporary::beside(&file).map_err(|e| failed(path, &e))?,
+            Target::Stdout | Target::Stream(_) => {
+                Temporary::in_system_folder().map_err(|e| no_temporary(&e))?
+            }
         };
         Ok(Self { path: path.to_path_buf(), temporary })
     }
@@ -58,7 +59,7 @@ impl Staged {
             let bytes = fs::read(temporary.path()).map_err(|e| failed(&path, &e))?;
             return atomic::write(&path, &bytes);
         };
-        persist(temporary, &file).map_err(|e| failed(&path, &e))
+        temporary.persist(&file).map_err(|e| failed(&path, &e))
     }
 }
 

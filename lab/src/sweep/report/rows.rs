@@ -4,6 +4,7 @@ use std::io::{Result, Write};
 
 use serde_json::{Value, json};
 
+use crate::printable;
 use crate::sweep::case::Case;
 use crate::sweep::plan::Plan;
 use crate::sweep::record::{Measured, Record};
@@ -27,8 +28,8 @@ impl<'a> Rows<'a> {
         let columns = ["case", "id"].into_iter().chain(paths.iter().copied());
         let columns = columns.chain(["exit_code", "message"]).chain(measures.iter().map(String::as_str));
         writeln!(csv, "{}", columns.map(field).collect::<Vec<_>>().join(","))?;
-        let scene = Value::from(plan.scene().name.as_str());
-        let [paths, names] = [json!(paths), json!(measures)];
+        let scene = printable::json(&json!(plan.scene().name).to_string());
+        let [paths, names] = [json!(paths), json!(measures)].map(|list| printable::json(&list.to_string()));
         let count = plan.count();
         write!(
             json,
@@ -61,7 +62,7 @@ impl<'a> Rows<'a> {
             self.json,
             "{comma}\n{{\"case\":{number},\"id\":\"{id}\",\"changes\":{{{}}},\"exit_code\":{code},\"message\":{},\"values\":{{{}}}}}",
             changes.join(","),
-            Value::from(message),
+            printable::json(&json!(message).to_string()),
             pairs.collect::<Vec<_>>().join(","),
         )
     }
@@ -75,7 +76,7 @@ impl<'a> Rows<'a> {
 }
 
 fn pair(key: &str, value: &Value) -> String {
-    format!("{}:{value}", Value::from(key))
+    printable::json(&format!("{}:{value}", Value::from(key)))
 }
 
 fn json(value: &Measured) -> Value {
@@ -96,11 +97,8 @@ fn text(value: &Value) -> String {
 }
 
 fn field(text: &str) -> String {
-    if text.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    let text = printable::line(text);
+    if text.contains(['"', ',']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
 #[cfg(test)]
@@ -109,8 +107,8 @@ mod tests {
 
     #[test]
     fn fields_read_back() {
-        let fields = [json!(null), json!(0.1), json!("a"), json!("a, \"b\""), json!([1, 2]), json!(true)];
-        let texts = ["", "0.1", "a", "\"a, \"\"b\"\"\"", "\"[1,2]\"", "true"];
+        let fields = [json!(null), json!(0.1), json!("a"), json!("a, \"b\"\n"), json!([1, 2]), json!(true)];
+        let texts = ["", "0.1", "a", "\"a, \"\"b\"\"␊\"", "\"[1,2]\"", "true"];
         assert_eq!(fields.map(|value| text(&value)), texts);
     }
 }

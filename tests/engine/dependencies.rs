@@ -1,5 +1,7 @@
-//! No dependency declares that it needs a newer Rust than this project does.
+//! No dependency declares that it needs a newer Rust than this project does; each has its reason in
+//! `docs/dependencies.md`; none of our crates has a build script.
 
+use std::collections::BTreeSet;
 use std::process::Command;
 
 use serde_json::Value;
@@ -16,6 +18,39 @@ fn printed(program: &str, arguments: &[&str]) -> Vec<u8> {
 fn version(text: &str) -> [u32; 3] {
     let mut numbers = text.split('.').map(|number| number.parse().unwrap());
     [(); 3].map(|()| numbers.next().unwrap_or(0))
+}
+
+/// The packages of this repository.
+fn ours() -> Vec<Value> {
+    let arguments = ["metadata", "--locked", "--format-version=1", "--no-deps"];
+    let mut metadata: Value = serde_json::from_slice(&printed(env!("CARGO"), &arguments)).unwrap();
+    serde_json::from_value(metadata["packages"].take()).unwrap()
+}
+
+#[test]
+fn every_direct_dependency_has_its_reason() {
+    let mut named = BTreeSet::new();
+    for package in ours() {
+        let dependencies = package["dependencies"].as_array().unwrap().iter();
+        named.extend(dependencies.filter_map(|d| d["name"].as_str().map(str::to_owned)));
+    }
+    named.retain(|name| !name.starts_with("drape"));
+    let page = std::fs::read_to_string(crate::repository::path("docs/dependencies.md")).unwrap();
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
+    let told: BTreeSet<String> = rows.skip(1).map(str::to_owned).collect();
+    assert!(named.len() > 20, "{named:?}");
+    assert_eq!(named, told, "the manifests and docs/dependencies.md");
+}
+
+#[test]
+fn no_package_has_a_build_script() {
+    let packages = ours();
+    assert!(packages.len() >= 5, "{packages:?}");
+    for package in &packages {
+        let mut kinds =
+            package["targets"].as_array().unwrap().iter().map(|target| target["kind"].to_string());
+        assert!(kinds.all(|kind| !kind.contains("custom-build")), "{}", package["name"]);
+    }
 }
 
 #[test]
