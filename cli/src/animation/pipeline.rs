@@ -16,6 +16,8 @@ use crate::session::files::outputs;
 use crate::session::progress::Progress;
 use drape::cloth::Points;
 use drape::error::Result;
+use drape::math::StateHash;
+use drape::output::provenance::Provenance;
 use drape::render::{Options, Picture, Renderer};
 use drape::simulation::Simulation;
 
@@ -33,6 +35,8 @@ pub(crate) struct Pipeline<'a> {
     pub(crate) options: Options,
     /// The numbered pictures, if each has a file.
     pub(crate) sequence: Option<Sequence<'a>>,
+    /// What the file says of itself.
+    pub(crate) provenance: Provenance,
 }
 
 /// Where a simulation is when it is seen.
@@ -52,8 +56,14 @@ pub(crate) struct Drawn {
     pub(crate) visible: bool,
 }
 
-/// Something that belongs to picture number `k`.
-type Numbered<T> = (u64, T);
+/// Something that belongs to one picture.
+struct Numbered<T> {
+    /// The number of the picture.
+    k: u64,
+    /// The hash of the state that it shows.
+    state: u64,
+    content: T,
+}
 
 impl Pipeline<'_> {
     /// The first and the last picture that are not there from an earlier run.
@@ -82,7 +92,7 @@ impl Pipeline<'_> {
         each: impl FnMut(&Simulation, Stage) -> Result<()> + Send,
         session: &Session,
     ) -> Result<Drawn> {
-        let file = self.target.open(self.playback, self.schedule.count())?;
+        let file = self.target.open(self.playback, self.schedule.count(), self.provenance.clone())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
         thread::scope(|scope| {
             let (states, to_draw) = sync_channel(QUEUE);
@@ -92,9 +102,9 @@ impl Pipeline<'_> {
             let drawn = self.draw(to_draw, &pictures);
             drop(pictures);
             joined(simulating)?;
-            let file = joined(encoding)?;
+            let (file, state) = joined(encoding)?;
             session.signals.check()?;
-            file.map_or(Ok(()), Animation::finish).map(|()| drawn)
+            file.map_or(Ok(()), |file| file.finish(state)).map(|()| drawn)
         })
     }
 
@@ -122,7 +132,8 @@ impl Pipeline<'_> {
                 each(&simulation, Stage::Frame)?;
             }
             session.signals.check()?;
-            if states.send((k, simulation.positions().clone())).is_err() {
+            let (state, content) = (simulation.state_hash(), simulation.positions().clone());
+            if states.send(Numbered { k, state, content }).is_err() {
                 break;
             }
         }
@@ -133,10 +144,10 @@ impl Pipeline<'_> {
     /// Draws each state and sends the picture; ends early when the receiver has gone.
     fn draw(&self, states: Receiver<Numbered<Points>>, pictures: &SyncSender<Numbered<Picture>>) -> Drawn {
         let mut drawn = Drawn::default();
-        for (k, points) in states {
-            let picture = self.renderer.draw(&points, &self.options);
-            drawn.visible |= picture.stats.fragments > 0;
-            if pictures.send((k, picture)).is_err() {
+        for Numbered { k, state, content: points } in states {
+            let content = self.renderer.draw(&points, &self.options);
+            drawn.visible |= content.stats.fragments > 0;
+            if pictures.send(Numbered { k, state, content }).is_err() {
                 break;
             }
             drawn.pictures += 1;
@@ -144,20 +155,22 @@ impl Pipeline<'_> {
         drawn
     }
 
-    /// Encodes each picture, and returns the file if all share one.
+    /// Encodes each picture, and returns the file if all share one, with the hash of their states.
     fn encode(
         &self,
         mut file: Option<Box<dyn Animation>>,
         pictures: &Receiver<Numbered<Picture>>,
-    ) -> Result<Option<Box<dyn Animation>>> {
-        for (k, picture) in pictures {
+    ) -> Result<(Option<Box<dyn Animation>>, u64)> {
+        let mut states = StateHash::default();
+        for Numbered { k, state, content: picture } in pictures {
+            states.write(&state.to_le_bytes());
             if let Some(file) = &mut file {
                 file.add(&picture.rgb)?;
             } else if let Some(sequence) = &self.sequence {
-                sequence.write(k, self.schedule.frame(k), &picture)?;
+                sequence.write(k, self.schedule.frame(k), state, &picture)?;
             }
         }
-        Ok(file)
+        Ok((file, states.finish()))
     }
 }
 
