@@ -10,7 +10,7 @@ use clap::{Parser, Subcommand};
 use crate::args::limit;
 use crate::commands::{
     animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
-    simulate, stability, study, sweep,
+    simulate, stability, study, sweep, verify,
 };
 use crate::session::files::atomic;
 use crate::session::stop::Limits;
@@ -89,6 +89,8 @@ pub(crate) enum Command {
     Choose(choose::Args),
     /// Tell for how long positions can be trusted: run a scene beside copies that differ by rounding
     Horizon(horizon::Args),
+    /// Make a picture or animation again from what it says of itself, and tell whether it is equal
+    Verify(verify::Args),
     /// Show what a scene needs and what it does not, its size in memory, and whether its step is stable
     Info(info::Args),
     /// List every error of scene files, and what would stop a later command, without simulating

@@ -20,7 +20,7 @@ use drape::error::Result;
 use command_line::{Command, CommandLine};
 use commands::{
     animate, check, choose, compare, compare_positions, export, gallery, horizon, info, meta, render,
-    simulate, stability, study, sweep,
+    simulate, stability, study, sweep, verify,
 };
 use session::stop::{self, Stop};
 use session::ui::Ui;
@@ -48,6 +48,7 @@ fn execute(arguments: &CommandLine, ui: Ui) -> Result<()> {
         Command::Export(args) => export::run(args, &session),
         Command::Compare(args) => compare::run(args, &session),
         Command::ComparePositions(args) => compare_positions::run(args, &session),
+        Command::Verify(args) => verify::run(args, &session),
         Command::Info(args) => info::run(args, &session),
         Command::Study(args) => study::run(args, &session),
         Command::Sweep(args) => sweep::run(args, &session),

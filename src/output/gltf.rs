@@ -5,6 +5,7 @@
 use serde_json::{Value, json};
 
 use super::part::Part;
+use super::provenance::Provenance;
 use crate::error::{Error, Kind, Result};
 use crate::scene::{Material, Needs};
 
@@ -33,13 +34,15 @@ const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// glTF bytes of meshes. `texture` gives the PNG of a texture's name. With `motion`, which has a shape for each of its
-/// times and as many vertices as the first mesh, an animation goes from frame to frame in straight lines.
+/// times and as many vertices as the first mesh, an animation goes from frame to frame in straight lines. With the hash
+/// of a state and `provenance`, the file says so of itself in `asset.extras.drape`; the content is its binary chunk.
 ///
 /// # Errors
 /// [`Kind::Internal`] when arrays do not fit together; [`Kind::Usage`] beyond 4 GiB; those of `texture`.
 pub fn encode(
     parts: &[Part<'_>],
     motion: Option<&Motion>,
+    provenance: Option<(u64, &Provenance)>,
     texture: impl Fn(&str) -> Result<Vec<u8>>,
 ) -> Result<Vec<u8>> {
     let mut file = File::default();
@@ -48,7 +51,7 @@ pub fn encode(
         let material = file.material(part, &texture)?;
         file.mesh(part, material, motion.filter(|_| i == 0))?;
     }
-    file.finish(parts.len())
+    file.finish(parts.len(), provenance)
 }
 
 /// The lists of a file, and its bytes.
@@ -186,7 +189,7 @@ impl File {
     }
 
     /// The file: a header, the JSON and the bytes, each filled up to a multiple of four.
-    fn finish(self, nodes: usize) -> Result<Vec<u8>> {
+    fn finish(self, nodes: usize, provenance: Option<(u64, &Provenance)>) -> Result<Vec<u8>> {
         let mut document = json!({
             "asset": { "version": "2.0", "generator": concat!("drape ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
@@ -198,6 +201,10 @@ impl File {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.bytes.len() }],
         });
+        if let Some((state, provenance)) = provenance {
+            let said = provenance.of_content(state, &self.bytes).to_json();
+            document["asset"]["extras"] = json!({ "drape": said });
+        }
         if !self.images.is_empty() {
             let textures = (0..self.images.len()).map(|source| json!({ "sampler": 0, "source": source }));
             document["textures"] = Value::Array(textures.collect());
@@ -251,12 +258,22 @@ mod tests {
     #[test]
     fn a_file_has_its_header_and_its_length() {
         let material = Material::default();
-        let bytes = encode(&[part(3, &[[0, 1, 2]], &material)], None, |_| Ok(Vec::new())).unwrap();
+        let bytes = encode(&[part(3, &[[0, 1, 2]], &material)], None, None, |_| Ok(Vec::new())).unwrap();
         assert_eq!(&bytes[..8], b"glTF\x02\0\0\0");
         assert_eq!(bytes[8..12], u32::try_from(bytes.len()).unwrap().to_le_bytes());
         let document = document(&bytes);
         assert_eq!(document["accessors"][0]["count"], 3);
         assert!(document.get("animations").is_none() && document.get("images").is_none());
+    }
+
+    #[test]
+    fn a_file_says_of_what_it_is() {
+        let (material, said) = (Material::default(), Provenance::default());
+        let parts = [part(3, &[[0, 1, 2]], &material)];
+        let bytes = encode(&parts, None, Some((7, &said)), |_| Ok(Vec::new())).unwrap();
+        let binary = bytes.windows(4).rposition(|window| window == b"BIN\0").unwrap() + 4;
+        let expected = said.of_content(7, &bytes[binary..]).to_json();
+        assert_eq!(document(&bytes)["asset"]["extras"]["drape"], expected);
     }
 
     #[test]
@@ -266,7 +283,7 @@ mod tests {
         let motion = Motion { times: vec![0.0, 0.5, 1.0], frames: [0.0, 1.0, 3.0].map(shape).to_vec() };
         let mesh = part(3, &[[0, 1, 2]], &material);
         let found =
-            document(&encode(std::slice::from_ref(&mesh), Some(&motion), |_| Ok(Vec::new())).unwrap());
+            document(&encode(std::slice::from_ref(&mesh), Some(&motion), None, |_| Ok(Vec::new())).unwrap());
         let targets = found["meshes"][0]["primitives"][0]["targets"].as_array().unwrap();
         let moved = |k: usize| {
             let accessor = targets[k]["POSITION"].as_u64().unwrap();
@@ -276,6 +293,6 @@ mod tests {
         let weights = found["animations"][0]["samplers"][0]["output"].as_u64().unwrap();
         assert_eq!(found["accessors"][usize::try_from(weights).unwrap()]["count"], 6);
         let short = Motion { times: vec![0.0], ..motion };
-        assert!(encode(&[mesh], Some(&short), |_| Ok(Vec::new())).is_err());
+        assert!(encode(&[mesh], Some(&short), None, |_| Ok(Vec::new())).is_err());
     }
 }

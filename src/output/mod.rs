@@ -1,5 +1,6 @@
 //! What leaves the program, as bytes: pictures, meshes, raw numbers, and the comparison of pictures.
 
+pub mod provenance;
 pub mod png;
 pub mod compare;
 pub mod part;

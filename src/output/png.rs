@@ -3,8 +3,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, Limits};
+use ::png::{BitDepth, Compression, DecodeOptions, Decoder, Encoder, EncodingError, Filter};
+use image::codecs::png::PngDecoder;
+use image::{ColorType, DynamicImage, ImageDecoder, Limits};
 
 use crate::bounded;
 use crate::error::{Error, Kind, Result};
@@ -40,23 +41,73 @@ pub struct Pixels {
 /// [`Kind::Internal`] when the number of samples is neither `3 * width * height` nor
 /// `4 * width * height`.
 pub fn encode(width: u32, height: u32, samples: &[u8], effort: Effort) -> Result<Vec<u8>> {
+    encode_with(width, height, samples, effort, &[])
+}
+
+/// As [`encode`], with a text chunk (`tEXt`) before the pixels for each keyword and text.
+///
+/// # Errors
+/// As [`encode`]; [`Kind::Internal`] too for a keyword or text that is not in Latin-1.
+pub fn encode_with(
+    width: u32,
+    height: u32,
+    samples: &[u8],
+    effort: Effort,
+    texts: &[(String, String)],
+) -> Result<Vec<u8>> {
     let pixels = u64::from(width) * u64::from(height);
     let color = match samples.len() as u64 {
-        count if pixels > 0 && Some(count) == pixels.checked_mul(3) => ExtendedColorType::Rgb8,
-        count if pixels > 0 && Some(count) == pixels.checked_mul(4) => ExtendedColorType::Rgba8,
+        count if pixels > 0 && Some(count) == pixels.checked_mul(3) => ::png::ColorType::Rgb,
+        count if pixels > 0 && Some(count) == pixels.checked_mul(4) => ::png::ColorType::Rgba,
         count => {
             return Err(Error::new(Kind::Internal, format!("{count} samples for {width} x {height} pixels")));
         }
     };
-    let (compression, filter) = match effort {
-        Effort::Fast => (CompressionType::Fast, FilterType::Adaptive),
-        Effort::Small => (CompressionType::Best, FilterType::Adaptive),
+    let compression = match effort {
+        Effort::Fast => Compression::Fast,
+        Effort::Small => Compression::High,
     };
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, compression, filter)
-        .write_image(samples, width, height, color)
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(compression);
+    encoder.set_filter(Filter::Adaptive);
+    write(encoder, samples, texts)
         .map_err(|e| Error::new(Kind::Internal, format!("cannot encode PNG: {e}")))?;
     Ok(bytes)
+}
+
+fn write(
+    mut encoder: Encoder<'_, &mut Vec<u8>>,
+    samples: &[u8],
+    texts: &[(String, String)],
+) -> std::result::Result<(), EncodingError> {
+    for (keyword, text) in texts {
+        encoder.add_text_chunk(keyword.clone(), text.clone())?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(samples)?;
+    writer.finish()
+}
+
+/// The keywords and texts of the text chunks (`tEXt`) in PNG bytes, also of those after the pixels.
+///
+/// # Errors
+/// [`Kind::Io`] when the bytes are no PNG, are cut short, or a checksum is wrong.
+pub fn texts(bytes: &[u8]) -> Result<Vec<(String, String)>> {
+    let read = fenced(|| read_texts(bytes)).unwrap_or_else(|why| Err(why.to_owned()));
+    read.map_err(|why| Error::new(Kind::Io, why))
+}
+
+fn read_texts(bytes: &[u8]) -> Result<Vec<(String, String)>, String> {
+    let mut options = DecodeOptions::default();
+    options.set_skip_ancillary_crc_failures(false);
+    let mut reader =
+        Decoder::new_with_options(Cursor::new(bytes), options).read_info().map_err(|e| e.to_string())?;
+    reader.finish().map_err(|e| e.to_string())?;
+    let chunks = &reader.info().uncompressed_latin1_text;
+    Ok(chunks.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone())).collect())
 }
 
 /// The picture in the PNG file at `path`.
@@ -88,6 +139,8 @@ fn decode(bytes: &[u8]) -> Result<Pixels, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use image::codecs::png::PngEncoder;
+    use image::{ExtendedColorType, ImageEncoder};
     use proptest::prelude::*;
 
     proptest! {
@@ -126,6 +179,24 @@ mod tests {
             let error = encode(width, height, &vec![0; count], Effort::Fast).unwrap_err();
             assert_eq!(error.kind, Kind::Internal);
         }
+    }
+
+    #[test]
+    fn texts_are_read_back_and_leave_the_pixels_alone() {
+        let given = [("a:b", "{\"x\":1}"), ("Title", "plain")].map(|(k, t)| (k.to_owned(), t.to_owned()));
+        let [plain, told] =
+            [&[][..], &given].map(|texts| encode_with(2, 1, &[7; 6], Effort::Fast, texts).unwrap());
+        assert_eq!(decode(&plain).unwrap(), decode(&told).unwrap());
+        assert_eq!((texts(&plain).unwrap(), texts(&told).unwrap()), (Vec::new(), given.to_vec()));
+        for end in 0..told.len() - 4 {
+            assert!(texts(&told[..end]).is_err(), "cut to {end} of {} bytes", told.len());
+        }
+        let place = told.windows(5).position(|window| window == b"plain").unwrap();
+        let mut changed = told;
+        changed[place] = b'P';
+        assert_eq!(texts(&changed).unwrap_err().kind, Kind::Io, "a checksum guards every text");
+        let latin = [("a".to_owned(), "\u{1f600}".to_owned())];
+        assert_eq!(encode_with(1, 1, &[0; 3], Effort::Fast, &latin).unwrap_err().kind, Kind::Internal);
     }
 
     #[test]

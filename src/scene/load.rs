@@ -53,6 +53,8 @@ pub struct Flag {
 pub struct Loaded {
     /// The scene.
     pub scene: Scene,
+    /// The scene of the file alone, without the changes, if that is valid too.
+    pub unchanged: Option<Scene>,
     /// What is allowed but probably not meant.
     pub warnings: Vec<Diagnostic>,
 }
@@ -75,6 +77,16 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded> {
 /// As [`load`]; [`Kind::Io`] if no built-in file has that path.
 pub fn load_stock(path: &Path, overrides: &Overrides) -> Result<Loaded> {
     assemble(&path.display().to_string(), &stock::read(path)?, overrides, stock::read)
+}
+
+/// The file name of the stock scene that is `scene`, such as `sphere.json`.
+pub fn stock_name(scene: &Scene) -> Option<&'static str> {
+    let is_same = |text| {
+        let loaded = load_text("stock", text, &Overrides::default());
+        loaded.is_ok_and(|loaded| loaded.scene == *scene)
+    };
+    let (path, _) = stock::SCENES.iter().find(|(_, text)| is_same(text))?;
+    path.strip_prefix("scenes/")
 }
 
 /// Loads a scene from `text`, which errors call `name`, changed by `overrides`.
@@ -116,11 +128,21 @@ fn assemble(
     for flag in &overrides.flags {
         flags.push(set::read_set(&mut diagnostics, flag.name, &flag.set)?);
     }
+    let is_changed = *overrides != Overrides::default();
+    let unchanged = document.as_ref().filter(|_| is_changed).and_then(unchanged);
     let scene = changed(&mut diagnostics, document, patches, sets, flags)
         .and_then(|document| read_scene(&mut diagnostics, &document));
     let warnings = diagnostics.finish()?;
     let scene = scene.ok_or_else(|| Error::new(Kind::Internal, "no scene and no error"))?;
-    Ok(Loaded { scene, warnings })
+    let unchanged = unchanged.or_else(|| (!is_changed).then(|| scene.clone()));
+    Ok(Loaded { scene, unchanged, warnings })
+}
+
+/// The scene of a document without changes, if it is valid; what is wrong with it is no concern.
+fn unchanged(document: &Node) -> Option<Scene> {
+    let mut diagnostics = Diagnostics::default();
+    let scene = read_scene(&mut diagnostics, document);
+    diagnostics.finish().ok().and(scene)
 }
 
 /// The document with all changes; nothing if a text was not JSON.

@@ -11,23 +11,24 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 8] = files![
+/// The stock scenes.
+pub(super) const SCENES: [(&str, &str); 6] = files![
     "scenes/pinned2.json",
     "scenes/pinned4.json",
     "scenes/sphere.json",
     "scenes/plane.json",
     "scenes/selfCollision.json",
     "scenes/table.json",
-    "scenes/look/ball.json",
-    "scenes/look/draped.json",
 ];
+
+const PATCHES: [(&str, &str); 2] = files!["scenes/look/ball.json", "scenes/look/draped.json"];
 
 /// The bytes of the built-in file that stands at `path` in the repository.
 ///
 /// # Errors
 /// [`Kind::Io`] when there is none.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
-    let file = FILES.iter().find(|(known, _)| Path::new(known) == path);
+    let file = SCENES.iter().chain(&PATCHES).find(|(known, _)| Path::new(known) == path);
     file.map(|(_, text)| text.as_bytes().to_vec())
         .ok_or_else(|| Error::new(Kind::Io, format!("no built-in file is called `{}`", path.display())))
 }

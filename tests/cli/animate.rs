@@ -170,9 +170,17 @@ fn numbered_pictures_of_the_same_scene_are_kept_and_others_are_drawn_again() {
     let other = |s: &Scratch| fs::copy(s.path(&path(2)), s.path(&path(4))).map(drop).unwrap();
     assert_eq!(replaced(&scratch, &[], other), [4], "the picture of another frame");
     let plain = |s: &Scratch| {
-        s.succeed(&[&["render", "small.json", "f/2.png", "--frame", "2"], &LOOK[..]].concat());
+        let rgb = read_png(s, "f/2.png");
+        let bytes = drape::output::png::encode(40, 30, &rgb, drape::output::png::Effort::Fast).unwrap();
+        fs::write(s.path("f/2.png"), bytes).unwrap();
     };
     assert_eq!(replaced(&scratch, &[], plain), [2], "a picture that does not say what it shows");
+    let drawn = |s: &Scratch| {
+        let old = s.read("f/2.png");
+        s.succeed(&[&["render", "small.json", "f/2.png", "--frame", "2"], &LOOK[..]].concat());
+        assert!(s.read("f/2.png") == old, "each is the file that `render` writes");
+    };
+    assert_eq!(replaced(&scratch, &[], drawn), [0; 0]);
     for change in [
         &["--set", "cloth.ks=4999"][..],
         &["--set", "light.position=[0.51,2,2]"],

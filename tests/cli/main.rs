@@ -46,4 +46,5 @@ mod sweep_spec;
 mod textbook_cloth;
 mod texts;
 mod threads;
+mod verify;
 mod without_effect;

@@ -1,15 +1,20 @@
 //! Animated PNG: true colour, a picture's delay is the exact fraction 1 / fps of a second.
 //!
 //! Each picture but the first holds only the rectangle that changes (PNG specification, third
-//! edition, `fcTL`: dispose `NONE`, blend `SOURCE`). The animation repeats for ever.
+//! edition, `fcTL`: dispose `NONE`, blend `SOURCE`). The animation repeats for ever. What it says of itself stands behind
+//! the pictures, as their hash is known last.
 
 use std::fs::File;
 use std::path::Path;
 
+use ::png::text_metadata::TEXtChunk;
+
 use super::changes::{Changes, Rectangle};
 use super::format::{Animation, Format, MAX_FPS, Playback};
+use super::seen::Seen;
 use crate::session::files::staged::Staged;
 use drape::error::{Error, Kind, Result};
+use drape::output::provenance::Provenance;
 
 /// The row of the table.
 pub(crate) const APNG: Format = Format {
@@ -17,7 +22,9 @@ pub(crate) const APNG: Format = Format {
     note: "an animated PNG, lossless",
     max_fps: MAX_FPS,
     check: |_, _| Ok(()),
-    create: |path, playback, pictures| Ok(Box::new(Apng::create(path, playback, pictures)?)),
+    create: |path, playback, pictures, provenance| {
+        Ok(Box::new(Apng::create(path, playback, pictures, provenance)?))
+    },
 };
 
 /// An animated PNG that is being written.
@@ -25,6 +32,9 @@ struct Apng {
     staged: Staged,
     writer: ::png::Writer<File>,
     changes: Changes,
+    fps: u16,
+    seen: Seen,
+    provenance: Provenance,
 }
 
 impl Apng {
@@ -32,7 +42,7 @@ impl Apng {
     ///
     /// # Errors
     /// [`Kind::Io`] when it cannot be written, [`Kind::Usage`] for more pictures than the format can count.
-    fn create(path: &Path, playback: Playback, pictures: u64) -> Result<Self> {
+    fn create(path: &Path, playback: Playback, pictures: u64, provenance: Provenance) -> Result<Self> {
         let pictures = u32::try_from(pictures).map_err(|_| {
             Error::new(
                 Kind::Usage,
@@ -41,18 +51,23 @@ impl Apng {
         })?;
         let staged = Staged::create(path)?;
         let writer = header(staged.file()?, playback, pictures).map_err(|e| failed(&staged, e))?;
-        Ok(Self { staged, writer, changes: Changes::new(playback.width) })
+        let changes = Changes::new(playback.width);
+        Ok(Self { staged, writer, changes, fps: playback.fps, seen: Seen::default(), provenance })
     }
 }
 
 impl Animation for Apng {
     fn add(&mut self, rgb: &[u8]) -> Result<()> {
+        self.seen.add(rgb, [1000, u32::from(self.fps)]);
         let (rectangle, pixels) = self.changes.next(rgb);
         picture(&mut self.writer, rectangle, &pixels).map_err(|e| failed(&self.staged, e))
     }
 
-    fn finish(self: Box<Self>) -> Result<()> {
-        let Self { staged, writer, .. } = *self;
+    fn finish(self: Box<Self>, state: u64) -> Result<()> {
+        let Self { staged, mut writer, seen, provenance, .. } = *self;
+        for (keyword, text) in provenance.of_picture(state, seen.hash()).texts() {
+            writer.write_text_chunk(&TEXtChunk::new(keyword, text)).map_err(|e| failed(&staged, e))?;
+        }
         writer.finish().map_err(|e| failed(&staged, e))?;
         staged.finish()
     }

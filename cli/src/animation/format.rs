@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use drape::error::Result;
+use drape::output::provenance::Provenance;
 
 /// Most pictures per second of any format.
 pub(crate) const MAX_FPS: u16 = 1000;
@@ -17,9 +18,12 @@ pub(crate) struct Format {
     pub(crate) max_fps: u16,
     /// Checks, before long work, that a file at this path can be encoded.
     pub(crate) check: fn(&Path, Playback) -> Result<()>,
-    /// Starts a file at this path for this many pictures.
-    pub(crate) create: fn(&Path, Playback, u64) -> Result<Box<dyn Animation>>,
+    /// Starts a file.
+    pub(crate) create: Create,
 }
+
+/// Starts a file at this path for this many pictures, which says this of itself if the format has a place for it.
+pub(crate) type Create = fn(&Path, Playback, u64, Provenance) -> Result<Box<dyn Animation>>;
 
 /// The size and the speed of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,9 +46,9 @@ pub(crate) trait Animation: Send {
     /// [`Kind::Io`](drape::error::Kind::Io) when it cannot be written.
     fn add(&mut self, rgb: &[u8]) -> Result<()>;
 
-    /// Completes the file. Without this call there is none.
+    /// Completes the file, whose states have the hash `state`. Without this call there is none.
     ///
     /// # Errors
     /// As [`Animation::add`].
-    fn finish(self: Box<Self>) -> Result<()>;
+    fn finish(self: Box<Self>, state: u64) -> Result<()>;
 }

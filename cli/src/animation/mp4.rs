@@ -18,7 +18,7 @@ pub(crate) const MP4: Format = Format {
     note: "H.264, encoded by the program ffmpeg, which must be installed",
     max_fps: MAX_FPS,
     check: find_ffmpeg,
-    create: |path, playback, _| Ok(Box::new(Mp4::create(path, playback)?)),
+    create: |path, playback, _, _| Ok(Box::new(Mp4::create(path, playback)?)),
 };
 
 /// The options of the encoder, wherever the pictures come from. Most players need even sides, chroma at half the
@@ -126,7 +126,7 @@ impl Animation for Mp4 {
         written.map_err(|e: io::Error| self.failed(&e.to_string()))
     }
 
-    fn finish(mut self: Box<Self>) -> Result<()> {
+    fn finish(mut self: Box<Self>, _state: u64) -> Result<()> {
         self.pictures = None;
         match self.ffmpeg.wait() {
             Ok(status) if status.success() => {}

@@ -18,6 +18,8 @@ use crate::session::leftovers::locked;
 use crate::session::progress::Progress;
 use drape::cloth::Points;
 use drape::error::Result;
+use drape::math::StateHash;
+use drape::output::provenance::Provenance;
 use drape::render::{Options, Picture, Renderer};
 use drape::simulation::Simulation;
 
@@ -35,6 +37,8 @@ pub(crate) struct Pipeline<'a> {
     pub(crate) options: Options,
     /// The numbered pictures, if each has a file.
     pub(crate) sequence: Option<Sequence<'a>>,
+    /// What the file says of itself.
+    pub(crate) provenance: Provenance,
 }
 
 /// Where a simulation is when it is seen.
@@ -60,8 +64,15 @@ struct Work<E> {
     last: u64,
     simulation: Mutex<Simulation>,
     each: Mutex<E>,
+    encoded: Mutex<Encoded>,
+}
+
+/// What was encoded so far.
+struct Encoded {
     /// The file, if all pictures share one.
-    file: Mutex<Option<Box<dyn Animation>>>,
+    file: Option<Box<dyn Animation>>,
+    /// The hash of the states of all pictures.
+    states: StateHash,
 }
 
 /// What sees the simulation after every frame, and once more at the end.
@@ -69,8 +80,14 @@ pub(crate) trait Each: FnMut(&Simulation, Stage) -> Result<()> + Send {}
 
 impl<T: FnMut(&Simulation, Stage) -> Result<()> + Send> Each for T {}
 
-/// Something that belongs to picture number `k`.
-type Numbered<T> = (u64, T);
+/// Something that belongs to one picture.
+struct Numbered<T> {
+    /// The number of the picture.
+    k: u64,
+    /// The hash of the state that it shows.
+    state: u64,
+    content: T,
+}
 
 impl Pipeline<'_> {
     /// The first and the last picture that are not there from an earlier run.
@@ -98,17 +115,18 @@ impl Pipeline<'_> {
         each: impl Each,
         session: &Session,
     ) -> Result<Drawn> {
-        let file = self.target.open(self.playback, self.schedule.count())?;
+        let file = self.target.open(self.playback, self.schedule.count(), self.provenance.clone())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
-        let work =
-            Work { last, simulation: Mutex::new(simulation), each: Mutex::new(each), file: Mutex::new(file) };
+        let encoded = Mutex::new(Encoded { file, states: StateHash::default() });
+        let work = Work { last, simulation: Mutex::new(simulation), each: Mutex::new(each), encoded };
         let drawn = match self.side_by_side(&work, session)? {
             Some(drawn) => drawn,
             None => self.one_after_another(&work, session)?,
         };
         self.target.check_stop(&session.stop)?;
-        let file = locked(&work.file).take();
-        file.map_or(Ok(()), Animation::finish).map(|()| drawn)
+        let mut encoded = locked(&work.encoded);
+        let states = encoded.states.finish();
+        encoded.file.take().map_or(Ok(()), |file| file.finish(states)).map(|()| drawn)
     }
 
     /// The three stages, the first and the last on threads of their own; nothing if those cannot be started.
@@ -166,7 +184,8 @@ impl Pipeline<'_> {
                 each(simulation, Stage::Frame)?;
             }
             self.target.check_stop(&session.stop)?;
-            if !send((k, simulation.positions().clone()))? {
+            let (state, content) = (simulation.state_hash(), simulation.positions().clone());
+            if !send(Numbered { k, state, content })? {
                 break;
             }
         }
@@ -175,18 +194,22 @@ impl Pipeline<'_> {
     }
 
     /// The picture of a state.
-    fn draw(&self, (k, points): Numbered<Points>, drawn: &mut Drawn) -> Numbered<Picture> {
-        let picture = self.renderer.draw(&points, &self.options);
-        drawn.visible |= picture.stats.fragments > 0;
+    fn draw(&self, shown: Numbered<Points>, drawn: &mut Drawn) -> Numbered<Picture> {
+        let Numbered { k, state, content: points } = shown;
+        let content = self.renderer.draw(&points, &self.options);
+        drawn.visible |= content.stats.fragments > 0;
         drawn.pictures += 1;
-        (k, picture)
+        Numbered { k, state, content }
     }
 
     /// Adds a picture to the file, or writes its own.
-    fn encode<E>(&self, work: &Work<E>, (k, picture): Numbered<Picture>) -> Result<()> {
-        match (&mut *locked(&work.file), &self.sequence) {
+    fn encode<E>(&self, work: &Work<E>, shown: Numbered<Picture>) -> Result<()> {
+        let Numbered { k, state, content: picture } = shown;
+        let mut encoded = locked(&work.encoded);
+        encoded.states.write(&state.to_le_bytes());
+        match (&mut encoded.file, &self.sequence) {
             (Some(file), _) => file.add(&picture.rgb),
-            (None, Some(sequence)) => sequence.write(k, self.schedule.frame(k), &picture),
+            (None, Some(sequence)) => sequence.write(k, self.schedule.frame(k), state, &picture),
             (None, None) => Ok(()),
         }
     }

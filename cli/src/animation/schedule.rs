@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use drape::output::provenance::Arguments;
+
 /// Which simulated frame each picture shows.
 ///
 /// An animation plays in real time: picture k shows the simulated frame nearest to k / fps seconds after
@@ -9,6 +11,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FrameSchedule {
     frames: Range<u64>,
+    fps: u16,
     /// Simulated frames per picture.
     stride: f64,
     count: u64,
@@ -22,12 +25,18 @@ impl FrameSchedule {
         let length = frames.end.saturating_sub(frames.start);
         #[expect(clippy::cast_precision_loss, reason = "that many frames are never simulated")]
         let count = whole((length as f64 / stride).ceil());
-        Self { frames, stride, count }
+        Self { frames, fps, stride, count }
     }
 
     /// How many pictures there are.
     pub(crate) fn count(&self) -> u64 {
         self.count
+    }
+
+    /// What makes this schedule of the same scene again.
+    pub(crate) fn arguments(&self) -> Arguments {
+        let frames = [self.frames.start, self.frames.end];
+        Arguments { frames: Some(frames), fps: Some(self.fps), ..Arguments::default() }
     }
 
     /// The simulated frame that picture `k` shows.

@@ -1,31 +1,31 @@
 //! A PNG file for each picture.
 //!
-//! Each file has a text chunk (keyword `drape`) with the fingerprint of what it shows, so that a later run
-//! keeps the pictures of the same scene and draws the others again.
+//! Each is the file that `render` writes of the same moment. It says of what it is, so that a later run keeps the
+//! pictures of the same scene and draws the others again.
 
-use std::fs::{self, File};
-use std::io::BufReader;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::fingerprint::Fingerprint;
 use super::pattern::Pattern;
 use crate::session::files::atomic;
+use drape::bounded;
 use drape::error::{Error, Kind, Result};
+use drape::output::png::{self, Effort};
+use drape::output::provenance::{Arguments, Provenance};
 use drape::render::Picture;
-
-/// The keyword of the text chunk.
-const KEYWORD: &str = "drape";
 
 /// Numbered pictures, some of which may be there from an earlier run.
 pub(crate) struct Sequence<'a> {
     pub(crate) pattern: &'a Pattern,
-    pub(crate) fingerprint: Fingerprint,
+    /// What every picture says of itself, but for its frame and hashes.
+    pub(crate) provenance: Provenance,
 }
 
 impl Sequence<'_> {
     /// Whether picture `number` is there, complete, and shows `frame` of the same scene.
     pub(crate) fn has(&self, number: u64, frame: u64) -> bool {
-        is_complete(&self.pattern.path(number), &self.fingerprint.text(frame))
+        let there = whole(&self.pattern.path(number));
+        there.is_some_and(|there| there.is_like(&self.of(frame)))
     }
 
     /// Removes the pictures from number `count` on that an earlier, longer run has left; returns those files that
@@ -36,7 +36,7 @@ impl Sequence<'_> {
     pub(crate) fn remove_from(&self, count: u64) -> Result<Vec<PathBuf>> {
         let late = self.pattern.files().into_iter().filter(|(number, _)| *number >= count);
         let (own, others): (Vec<PathBuf>, Vec<PathBuf>) =
-            late.map(|(_, path)| path).partition(|path| File::open(path).is_ok_and(is_own));
+            late.map(|(_, path)| path).partition(|path| said(path).is_some());
         for path in own {
             fs::remove_file(&path).map_err(|e| {
                 Error::new(Kind::Io, format!("cannot remove `{}` of an earlier run: {e}", path.display()))
@@ -45,92 +45,64 @@ impl Sequence<'_> {
         Ok(others)
     }
 
-    /// Writes picture `number`, which shows `frame`.
+    /// Writes picture `number`, which shows `frame`, whose state has the hash `state`.
     ///
     /// # Errors
     /// As [`atomic::write`].
-    pub(crate) fn write(&self, number: u64, frame: u64, picture: &Picture) -> Result<()> {
-        let size = [picture.width, picture.height];
-        write(&self.pattern.path(number), size, &picture.rgb, &self.fingerprint.text(frame))
+    pub(crate) fn write(&self, number: u64, frame: u64, state: u64, picture: &Picture) -> Result<()> {
+        let texts = self.of(frame).of_picture(state, picture.hash()).texts();
+        let bytes = png::encode_with(picture.width, picture.height, &picture.rgb, Effort::Fast, &texts)?;
+        atomic::write(&self.pattern.path(number), &bytes)
+    }
+
+    /// What the picture of `frame` says of itself.
+    fn of(&self, frame: u64) -> Provenance {
+        let arguments = Arguments { frame: Some(frame), ..self.provenance.arguments.clone() };
+        Provenance { arguments, ..self.provenance.clone() }
     }
 }
 
-/// Writes a picture (three bytes a pixel, top row first) with a text chunk.
-///
-/// # Errors
-/// As [`atomic::write`]; [`Kind::Internal`] when `rgb` is not of that size.
-fn write(path: &Path, [width, height]: [u32; 2], rgb: &[u8], text: &str) -> Result<()> {
-    let bytes = encode(width, height, rgb, text)
-        .map_err(|e| Error::new(Kind::Internal, format!("cannot encode PNG: {e}")))?;
-    atomic::write(path, &bytes)
+/// What a picture says of itself, if it is whole to its last byte.
+fn whole(path: &Path) -> Option<Provenance> {
+    let provenance = said(path)?;
+    png::read(path).ok()?;
+    bounded::read(path, bounded::MOST).ok()?.ends_with(b"IEND\xAE\x42\x60\x82").then_some(provenance)
 }
 
-fn encode(width: u32, height: u32, rgb: &[u8], text: &str) -> Result<Vec<u8>, ::png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = ::png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(::png::ColorType::Rgb);
-    encoder.set_depth(::png::BitDepth::Eight);
-    encoder.set_compression(::png::Compression::Fast);
-    encoder.set_filter(::png::Filter::Adaptive);
-    encoder.add_text_chunk(KEYWORD.into(), text.into())?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(rgb)?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
-/// Whether `path` is a complete picture with this text chunk.
-fn is_complete(path: &Path, text: &str) -> bool {
-    File::open(path).is_ok_and(|file| has_text(file, text).unwrap_or(false)) && ends(path)
-}
-
-fn has_text(file: File, text: &str) -> Result<bool, ::png::DecodingError> {
-    let mut reader = ::png::Decoder::new(BufReader::new(file)).read_info()?;
-    let texts = &reader.info().uncompressed_latin1_text;
-    if !texts.iter().any(|chunk| chunk.keyword == KEYWORD && chunk.text == text) {
-        return Ok(false);
-    }
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap_or(0)];
-    reader.next_frame(&mut pixels)?;
-    reader.finish()?;
-    Ok(true)
-}
-
-/// Whether a file is a picture that this program has numbered.
-fn is_own(file: File) -> bool {
-    let reader = ::png::Decoder::new(BufReader::new(file)).read_info();
-    reader.is_ok_and(|reader| {
-        reader.info().uncompressed_latin1_text.iter().any(|chunk| chunk.keyword == KEYWORD)
-    })
-}
-
-/// Whether the last chunk is there, which a decoder does not ask for.
-fn ends(path: &Path) -> bool {
-    fs::read(path).is_ok_and(|bytes| bytes.ends_with(b"IEND\xAE\x42\x60\x82"))
+/// What a picture of this program says of itself.
+fn said(path: &Path) -> Option<Provenance> {
+    Provenance::from_texts(&png::texts(&bounded::read(path, bounded::MOST).ok()?).ok()?).ok()?
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drape::raster::Stats;
 
     #[test]
-    fn only_a_complete_file_with_the_same_text_counts() {
+    fn only_a_complete_file_of_the_same_frame_and_scene_counts() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("0.png");
-        write(&path, [2, 1], &[1, 2, 3, 4, 5, 6], "scene a").unwrap();
+        let pattern = Pattern::parse(&dir.path().join("%d.png")).unwrap();
+        let path = pattern.path(0);
+        let of = |scene: &str| Provenance { scene: scene.to_owned(), ..Provenance::default() };
+        let [a, b] = ["a", "b"].map(|scene| Sequence { pattern: &pattern, provenance: of(scene) });
+        let (rgb, depth, stats) = (vec![1, 2, 3, 4, 5, 6], vec![0.0; 2], Stats::default());
+        a.write(0, 7, 1, &Picture { width: 2, height: 1, rgb, depth, ids: Vec::new(), stats }).unwrap();
         let bytes = fs::read(&path).unwrap();
-        assert!(is_complete(&path, "scene a") && !is_complete(&path, "scene b"));
-        assert_eq!(drape::output::png::read(&path).unwrap().rgba, [[1, 2, 3, 255], [4, 5, 6, 255]]);
+        assert!(a.has(0, 7) && !a.has(0, 8) && !a.has(1, 7) && !b.has(0, 7));
+        assert_eq!(png::read(&path).unwrap().rgba, [[1, 2, 3, 255], [4, 5, 6, 255]]);
         for cut in 0..bytes.len() {
             fs::write(&path, &bytes[..cut]).unwrap();
-            assert!(!is_complete(&path, "scene a"), "cut to {cut} of {} bytes", bytes.len());
+            assert!(!a.has(0, 7), "cut to {cut} of {} bytes", bytes.len());
         }
         for flipped in 0..bytes.len() {
             let mut bytes = bytes.clone();
             bytes[flipped] ^= 4;
             fs::write(&path, &bytes).unwrap();
-            assert!(!is_complete(&path, "scene a"), "byte {flipped} changed");
+            assert!(!a.has(0, 7), "byte {flipped} changed");
         }
-        assert!(!is_complete(&dir.path().join("none.png"), "scene a") && !is_complete(dir.path(), "scene a"));
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert!(!a.has(0, 7));
     }
 }

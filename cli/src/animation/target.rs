@@ -9,6 +9,7 @@ use super::mp4::MP4;
 use super::pattern::Pattern;
 use crate::session::stop::Stop;
 use drape::error::{Error, Kind, Result};
+use drape::output::provenance::Provenance;
 
 /// The formats of one file.
 pub(crate) const FORMATS: &[&Format] = &[&APNG, &GIF, &MP4];
@@ -96,13 +97,18 @@ impl Target {
         }
     }
 
-    /// The file for `count` pictures; none if each has its own.
+    /// The file for `count` pictures, which says `provenance` of itself; none if each has its own.
     ///
     /// # Errors
     /// [`Kind::Io`] when it cannot be written; [`Kind::Usage`] when the format cannot hold the pictures.
-    pub(crate) fn open(&self, playback: Playback, count: u64) -> Result<Option<Box<dyn Animation>>> {
+    pub(crate) fn open(
+        &self,
+        playback: Playback,
+        count: u64,
+        provenance: Provenance,
+    ) -> Result<Option<Box<dyn Animation>>> {
         match self {
-            Self::File(path, format) => (format.create)(path, playback, count).map(Some),
+            Self::File(path, format) => (format.create)(path, playback, count, provenance).map(Some),
             Self::Sequence(_) => Ok(None),
         }
     }

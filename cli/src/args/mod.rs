@@ -4,6 +4,7 @@ pub(crate) mod flag;
 pub(crate) mod frames;
 pub(crate) mod limit;
 pub(crate) mod part;
+pub(crate) mod provenance;
 pub(crate) mod render;
 pub(crate) mod scene;
 pub(crate) mod state;

@@ -5,11 +5,14 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use super::flag::{flag, help, size, whole};
+use super::provenance::ProvenanceArgs;
 use crate::session::ui::Ui;
 use drape::cubemap::FACES;
+use drape::math::StateHash;
 use drape::mesh::SpringKinds;
+use drape::output::provenance::{Arguments, Provenance, hex};
 use drape::render::{Options, Renderer};
-use drape::scene::{ColliderKind, Flag, Images, Scene, Shader};
+use drape::scene::{ColliderKind, Flag, Images, Loaded, Scene, Shader};
 use drape::texture_source::{ENDINGS, TextureSource};
 
 /// Changes to how a scene is drawn.
@@ -35,6 +38,8 @@ pub(crate) struct RenderArgs {
     /// Read all textures from this folder (texture_1.png, ..., cube/posx.png, ...) instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
+    #[command(flatten)]
+    provenance: ProvenanceArgs,
 }
 
 /// Warns of `pictures` that show only the background.
@@ -118,6 +123,17 @@ impl RenderArgs {
         }
     }
 
+    /// What a picture of the scene in `loaded` says of itself, but for its textures; `arguments` is what is shown.
+    pub(crate) fn provenance(&self, loaded: &Loaded, arguments: Arguments) -> Provenance {
+        let arguments = Arguments { springs: self.springs.map(names_of_springs), ..arguments };
+        self.provenance.of(loaded, arguments)
+    }
+
+    /// The hash of the textures that are drawn, if there are any that are not built in.
+    pub(crate) fn texture_hash(&self, scene: &Scene, renderer: &Renderer) -> Option<String> {
+        self.textures.as_ref().and_then(|_| texture_hash(scene, renderer))
+    }
+
     /// The options of the renderer that are not in the scene.
     pub(crate) fn options(&self, ids: bool) -> Options {
         Options { springs: self.springs, ids, ..Options::default() }
@@ -130,7 +146,24 @@ fn shader() -> PossibleValuesParser {
     )
 }
 
-fn springs(text: &str) -> Result<SpringKinds, String> {
+/// The hash of the textures that are drawn, if there are any.
+pub(crate) fn texture_hash(scene: &Scene, renderer: &Renderer) -> Option<String> {
+    let Images { textures, environments } = Images::of(scene);
+    let mut hash = StateHash::default();
+    renderer.hash_textures(&mut hash);
+    (!textures.is_empty() || !environments.is_empty()).then(|| hex(hash.finish()))
+}
+
+/// The kinds as [`springs`] reads them.
+fn names_of_springs(kinds: SpringKinds) -> String {
+    let SpringKinds { structural, shearing, bending } = kinds;
+    let named = [(structural, "structural"), (shearing, "shearing"), (bending, "bending")];
+    let names: Vec<&str> = named.into_iter().filter(|(drawn, _)| *drawn).map(|(_, name)| name).collect();
+    names.join(",")
+}
+
+/// Reads kinds of springs.
+pub(crate) fn springs(text: &str) -> Result<SpringKinds, String> {
     let mut kinds = SpringKinds { structural: false, shearing: false, bending: false };
     for name in text.split(',') {
         match name {
@@ -154,6 +187,9 @@ mod tests {
             springs("shearing,structural"),
             Ok(SpringKinds { structural: true, shearing: true, bending: false })
         );
+        for text in ["bending", "structural,shearing", "structural,shearing,bending"] {
+            assert_eq!(springs(text).map(names_of_springs), Ok(text.to_owned()));
+        }
         assert!(springs("").is_err() && springs("structural,").is_err() && springs("all").is_err());
     }
 }

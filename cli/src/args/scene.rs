@@ -7,7 +7,7 @@ use crate::run::advance::Until;
 use crate::session::Session;
 use drape::bounded;
 use drape::error::{Error, Kind, Result};
-use drape::scene::{self, Flag, Overrides, Scene};
+use drape::scene::{self, Flag, Loaded, Overrides, Scene};
 use drape_lab::page::live::Live;
 
 /// A scene file and changes to it.
@@ -34,14 +34,14 @@ pub(crate) struct Changes {
 impl SceneArgs {
     /// Reads the scene and prints its warnings.
     pub(crate) fn load(&self, session: &Session) -> Result<Scene> {
-        self.load_with_flags(&[], session)
+        self.load_with_flags(&[], session).map(|loaded| loaded.scene)
     }
 
-    /// As [`SceneArgs::load`], with the changes of `flags`.
-    pub(crate) fn load_with_flags(&self, flags: &[Flag], session: &Session) -> Result<Scene> {
+    /// As [`SceneArgs::load`], with the changes of `flags`; also the scene without any changes.
+    pub(crate) fn load_with_flags(&self, flags: &[Flag], session: &Session) -> Result<Loaded> {
         let loaded = scene::load(&self.path, &self.changes.with(flags))?;
         loaded.warnings.iter().for_each(|warning| session.ui.warn(warning));
-        Ok(loaded.scene)
+        Ok(loaded)
     }
 
     /// The changes as the loader takes them.
@@ -58,8 +58,8 @@ impl SceneArgs {
 
     /// Reads a scene file that is built into the program, by its path in the repository, with the changes of
     /// `flags`.
-    pub(crate) fn load_stock(&self, flags: &[Flag]) -> Result<Scene> {
-        scene::load_stock(&self.path, &self.changes.with(flags)).map(|loaded| loaded.scene)
+    pub(crate) fn load_stock(&self, flags: &[Flag]) -> Result<Loaded> {
+        scene::load_stock(&self.path, &self.changes.with(flags))
     }
 
     /// The live page at `url` with this scene and its changes in every link.

@@ -69,7 +69,11 @@ impl StateArgs {
     }
 }
 
-fn read(path: &Path) -> Result<Snapshot> {
+/// The state in a file.
+///
+/// # Errors
+/// [`Kind::Io`] when it cannot be read or is no state.
+pub(crate) fn read(path: &Path) -> Result<Snapshot> {
     let named = |e: Error| Error { message: format!("{}: {}", path.display(), e.message), ..e };
     let bytes = bounded::read(path, bounded::MOST)
         .map_err(|e| Error::new(Kind::Io, format!("cannot read {}: {e}", path.display())))?;

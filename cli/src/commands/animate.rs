@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
 
-use crate::animation::fingerprint::Fingerprint;
 use crate::animation::format::{MAX_FPS, Playback};
 use crate::animation::pipeline::{Drawn, Pipeline, Stage};
 use crate::animation::schedule::FrameSchedule;
@@ -22,7 +21,7 @@ use crate::session::Session;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
-
+use drape::output::provenance::{Arguments, Provenance};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 
@@ -70,21 +69,23 @@ struct Summary {
 
 /// Simulates, draws and encodes at the same time.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let scene = args.scene.load_with_flags(&args.render.flags(), session)?;
+    let loaded = args.scene.load_with_flags(&args.render.flags(), session)?;
+    let scene = &loaded.scene;
     let target = Target::parse(&args.out)?;
     let [width, height] = scene.render.size;
-    let background = background(&scene);
+    let background = background(scene);
     let playback = Playback { width, height, fps: target.fps(args.fps, scene.sim.fps)?, background };
-    let schedule = args.schedule(&scene, playback.fps)?;
-    args.check_outputs(&scene, &target, &schedule)?;
+    let schedule = args.schedule(scene, playback.fps)?;
+    args.check_outputs(scene, &target, &schedule)?;
     target.check(playback)?;
     // All inputs are read before anything is simulated.
-    let renderer = renderer(&scene, &args.render.textures(), session)?;
-    args.render.caution(&scene, &renderer, &session.ui);
+    let renderer = renderer(scene, &args.render.textures(), session)?;
+    args.render.caution(scene, &renderer, &session.ui);
     let options = args.render.options(false);
-    let sequence = target
-        .pattern()
-        .map(|pattern| Sequence { pattern, fingerprint: Fingerprint::new(&scene, &renderer, &options) });
+    let textures = args.render.texture_hash(scene, &renderer);
+    let of =
+        |arguments| Provenance { textures: textures.clone(), ..args.render.provenance(&loaded, arguments) };
+    let sequence = target.pattern().map(|pattern| Sequence { pattern, provenance: of(Arguments::default()) });
     if let Some(sequence) = &sequence {
         remove_stale(sequence, schedule.count(), session)?;
     }
@@ -98,13 +99,14 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         renderer: &renderer,
         options,
         sequence,
+        provenance: of(schedule.arguments()),
     };
     let drawn = match pipeline.missing(session)? {
         Some([first, last]) => {
             let allowed = args.stability.allow_unstable;
-            let mut simulation = start(&scene, schedule.frame(last), allowed, session)?;
-            args.state.restore(&mut simulation, &scene, schedule.frame(first))?;
-            let mut saving = args.state.saving(&scene);
+            let mut simulation = start(scene, schedule.frame(last), allowed, session)?;
+            args.state.restore(&mut simulation, scene, schedule.frame(first))?;
+            let mut saving = args.state.saving(scene);
             let save = |now: &Simulation, stage| match stage {
                 Stage::Frame => saving.after_frame(now),
                 Stage::End => saving.finish(now),

@@ -12,6 +12,7 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
+use drape::output::provenance::Arguments;
 use drape::scene::Flag;
 use drape_lab::gallery::page;
 use drape_lab::gallery::shot::{self, Shot, Shown, State};
@@ -109,13 +110,16 @@ fn read(picture: &Picture, size: Option<Flag>) -> Result<Shot> {
     let wrong = |cause: String| Error::new(Kind::Internal, format!("`{}`: {cause}", picture.command()));
     let render = render::Args::parse_line(picture.words()).map_err(|refusal| wrong(refusal.to_string()))?;
     let flags: Vec<Flag> = render.render.flags().into_iter().chain(size).collect();
-    let scene = render.scene.load_stock(&flags)?;
-    let until = render.moment.until(&scene);
+    let loaded = render.scene.load_stock(&flags)?;
+    let until = render.moment.until(&loaded.scene);
     if until.rest {
         return Err(wrong("its moment is known only at the end".to_owned()));
     }
     let allow_unstable = render.moment.stability.allow_unstable;
-    Ok(Shot { scene, options: render.render.options(false), frame: until.frames, allow_unstable })
+    let arguments = Arguments { frame: Some(until.frames), ..Arguments::default() };
+    let provenance = render.render.provenance(&loaded, arguments);
+    let options = render.render.options(false);
+    Ok(Shot { scene: loaded.scene, options, frame: until.frames, allow_unstable, provenance })
 }
 
 /// Takes the pictures and tells how far it is.

@@ -17,3 +17,4 @@ pub(crate) mod simulate;
 pub(crate) mod stability;
 pub(crate) mod study;
 pub(crate) mod sweep;
+pub(crate) mod verify;

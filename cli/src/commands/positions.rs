@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use crate::animation::pattern::Pattern;
+use crate::args::provenance::Detail;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
-use crate::session::files::target::Content;
-use drape::error::Result;
+use crate::session::files::target::{Content, is_stdout};
+use drape::error::{Error, Kind, Result};
+use drape::output::provenance::{Arguments, Provenance};
 use drape::output::raw;
-use drape::scene::Scene;
+use drape::scene::{Loaded, Scene};
 use drape::simulation::Simulation;
 use drape_lab::npy;
 
@@ -24,6 +26,9 @@ pub(super) struct PositionsArgs {
     #[arg(long, value_name = "N", default_value_t = 1, requires = "positions",
           value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
+    /// Write beside each file of positions, as FILE.json, of what it is. The formats have no place for it
+    #[arg(long, value_name = "WHAT", requires = "positions")]
+    provenance: Option<Detail>,
 }
 
 impl PositionsArgs {
@@ -32,29 +37,48 @@ impl PositionsArgs {
         self.positions.as_deref().and_then(Pattern::parse)
     }
 
-    /// The file that is written first.
+    /// What each file says of itself, if that was asked for.
     ///
     /// # Errors
-    /// [`drape::error::Kind::Io`] when the folder of numbered files cannot be made.
-    pub(super) fn output(&self) -> Result<Option<(PathBuf, Content)>> {
-        let Some(pattern) = self.pattern() else {
-            return Ok(self.positions.clone().map(|path| (path, Content::Binary)));
-        };
-        if !pattern.folder().as_os_str().is_empty() {
+    /// [`Kind::Usage`] when there is nothing that it could stand beside.
+    pub(super) fn provenance(&self, loaded: &Loaded) -> Result<Option<Provenance>> {
+        if self.provenance.is_some() && self.positions.as_deref().is_some_and(is_stdout) {
+            let message = "--provenance writes beside a file, and standard output is none";
+            return Err(Error::new(Kind::Usage, message).with_help("name a file: --positions FILE"));
+        }
+        Ok(self.provenance.map(|detail| detail.of(loaded, Arguments::default())))
+    }
+
+    /// The files that are written first.
+    ///
+    /// # Errors
+    /// [`Kind::Io`] when the folder of numbered files cannot be made.
+    pub(super) fn outputs(&self) -> Result<Vec<(PathBuf, Content)>> {
+        let pattern = self.pattern();
+        if let Some(pattern) = pattern.as_ref().filter(|pattern| !pattern.folder().as_os_str().is_empty()) {
             outputs::make_folder(pattern.folder())?;
         }
-        Ok(Some((pattern.path(0), Content::Binary)))
+        let Some(path) = pattern.map(|pattern| pattern.path(0)).or_else(|| self.positions.clone()) else {
+            return Ok(Vec::new());
+        };
+        let beside = self.provenance.map(|_| (beside(&path), Content::Text));
+        Ok([(path, Content::Binary)].into_iter().chain(beside).collect())
     }
 
     /// Writes the positions after a frame, where each has a file.
     ///
     /// # Errors
     /// As [`atomic::write`].
-    pub(super) fn after_frame(&self, scene: &Scene, simulation: &Simulation) -> Result<()> {
+    pub(super) fn after_frame(
+        &self,
+        scene: &Scene,
+        provenance: Option<&Provenance>,
+        simulation: &Simulation,
+    ) -> Result<()> {
         let frame = simulation.frame();
         match self.pattern() {
             Some(pattern) if frame.is_multiple_of(self.every) => {
-                write(&pattern.path(frame), scene, simulation)
+                write(&pattern.path(frame), scene, provenance, simulation)
             }
             _ => Ok(()),
         }
@@ -64,23 +88,36 @@ impl PositionsArgs {
     ///
     /// # Errors
     /// As [`atomic::write`].
-    pub(super) fn finish(&self, scene: &Scene, simulation: &Simulation) -> Result<()> {
+    pub(super) fn finish(
+        &self,
+        scene: &Scene,
+        provenance: Option<&Provenance>,
+        simulation: &Simulation,
+    ) -> Result<()> {
         match &self.positions {
-            Some(path) if self.pattern().is_none() => write(path, scene, simulation),
+            Some(path) if self.pattern().is_none() => write(path, scene, provenance, simulation),
             _ => Ok(()),
         }
     }
 }
 
-fn write(path: &Path, scene: &Scene, simulation: &Simulation) -> Result<()> {
+fn write(path: &Path, scene: &Scene, provenance: Option<&Provenance>, simulation: &Simulation) -> Result<()> {
     let points = simulation.positions();
     let numpy = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy"));
-    let bytes = if numpy {
-        let grid =
-            scene.cloth.as_ref().map_or([0, 0], |cloth| [cloth.num_width_points, cloth.num_height_points]);
-        npy::encode(points, grid)
-    } else {
-        raw::points(&points.x, &points.y, &points.z)
-    };
-    atomic::write(path, &bytes)
+    let numbers = raw::points(&points.x, &points.y, &points.z);
+    if let Some(provenance) = provenance {
+        let mut said = provenance.of_content(simulation.state_hash(), &numbers);
+        said.arguments.frame = Some(simulation.frame());
+        atomic::write(&beside(path), (said.to_json().to_string() + "\n").as_bytes())?;
+    }
+    let grid =
+        || scene.cloth.as_ref().map_or([0, 0], |cloth| [cloth.num_width_points, cloth.num_height_points]);
+    atomic::write(path, &if numpy { npy::encode(points, grid()) } else { numbers })
+}
+
+/// The file beside `path`: `p.npy.json` for `p.npy`.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".json");
+    name.into()
 }

@@ -17,6 +17,7 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::output::png::{self, Effort};
+use drape::output::provenance::{Arguments, Provenance, hex};
 use drape::output::raw;
 use drape::raster::Stats;
 use drape::render::Picture;
@@ -81,17 +82,18 @@ struct Summary {
 
 /// Simulates, draws, writes.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let scene = args.scene.load_with_flags(&args.render.flags(), session)?;
-    let until = args.moment.until(&scene);
+    let loaded = args.scene.load_with_flags(&args.render.flags(), session)?;
+    let scene = &loaded.scene;
+    let until = args.moment.until(scene);
     let path = args.picture_path()?;
-    args.check_outputs(&path, &scene, session)?;
+    args.check_outputs(&path, scene, session)?;
     // All inputs are read before anything is simulated.
-    let renderer = renderer(&scene, &args.render.textures(), session)?;
-    args.render.caution(&scene, &renderer, &session.ui);
-    let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    args.state.restore(&mut simulation, &scene, until.frames)?;
-    let mut saving = args.state.saving(&scene);
-    let ended = advance_until(&mut simulation, &scene, until, session, |now| saving.after_frame(now))?;
+    let renderer = renderer(scene, &args.render.textures(), session)?;
+    args.render.caution(scene, &renderer, &session.ui);
+    let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    args.state.restore(&mut simulation, scene, until.frames)?;
+    let mut saving = args.state.saving(scene);
+    let ended = advance_until(&mut simulation, scene, until, session, |now| saving.after_frame(now))?;
     saving.finish(&simulation)?;
     let options = args.render.options(args.ids.is_some());
     if let Some(runs) = args.bench {
@@ -102,7 +104,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if args.hash {
         print_hash(&picture, &simulation, session)?;
     } else {
-        args.write(&path, &picture)?;
+        let arguments = Arguments { frame: Some(simulation.frame()), ..Arguments::default() };
+        let textures = args.render.texture_hash(scene, &renderer);
+        let provenance = Provenance { textures, ..args.render.provenance(&loaded, arguments) };
+        let provenance = provenance.of_picture(simulation.state_hash(), picture.hash());
+        args.write(&path, &picture, &provenance)?;
         args.finish(&path, &picture, &simulation, session)?;
     }
     ended.result()
@@ -147,8 +153,9 @@ impl Args {
         outputs::takes_stdout(&[&self.picture, &self.depth, &self.ids])
     }
 
-    fn write(&self, path: &Path, picture: &Picture) -> Result<()> {
-        let bytes = png::encode(picture.width, picture.height, &picture.rgb, Effort::Fast)?;
+    fn write(&self, path: &Path, picture: &Picture, provenance: &Provenance) -> Result<()> {
+        let &Picture { width, height, ref rgb, .. } = picture;
+        let bytes = png::encode_with(width, height, rgb, Effort::Fast, &provenance.texts())?;
         if let Some(path) = &self.depth {
             atomic::write(path, &raw::depths(&picture.depth))?;
         }
@@ -181,7 +188,7 @@ impl Args {
 
 fn print_hash(picture: &Picture, simulation: &Simulation, session: &Session) -> Result<()> {
     let &Picture { width, height, .. } = picture;
-    let picture_hash = format!("{:016x}", picture.hash());
+    let picture_hash = hex(picture.hash());
     let text = format!("{picture_hash}\n");
     let (frame, time) = (simulation.frame(), simulation.time());
     session.print(&Hash { picture_hash, width, height, frame, time }, &text)

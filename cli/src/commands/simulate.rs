@@ -76,10 +76,13 @@ struct Bench {
 
 /// Simulates, writes the positions, prints the result.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let scene = args.scene.load(session)?;
-    let until = args.until(&scene);
+    let loaded = args.scene.load_with_flags(&[], session)?;
+    let scene = &loaded.scene;
+    let until = args.until(scene);
+    let said = args.positions.provenance(&loaded)?;
+    let said = said.as_ref();
     args.check_outputs(session)?;
-    let mut simulation = start(&scene, until.frames, args.stability.allow_unstable, session)?;
+    let mut simulation = start(scene, until.frames, args.stability.allow_unstable, session)?;
     if args.bench {
         simulation.record_timings();
     }
@@ -88,28 +91,28 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         simulation.record_ledger()?;
     }
     let heights = simulation.positions().y.clone();
-    args.state.restore(&mut simulation, &scene, until.frames)?;
-    let mut saving = args.state.saving(&scene);
+    args.state.restore(&mut simulation, scene, until.frames)?;
+    let mut saving = args.state.saving(scene);
     let mut hashes = Vec::new();
     let (mut before, mut limited) = (0, 0);
-    let ended = advance_until(&mut simulation, &scene, until, session, |now| {
+    let ended = advance_until(&mut simulation, scene, until, session, |now| {
         let all = now.counters().springs_limited;
         (limited, before) = (all - before, all);
         table.iter_mut().for_each(|table| table.row(now));
-        args.positions.after_frame(&scene, now)?;
+        args.positions.after_frame(scene, said, now)?;
         saving.after_frame(now)?;
         args.take_hash(now, session, &mut hashes)
     });
     let ended = args.write_failed(table.as_ref(), ended)?;
     saving.finish(&simulation)?;
-    args.positions.finish(&scene, &simulation)?;
+    args.positions.finish(scene, said, &simulation)?;
     args.write_table(table.as_ref())?;
     if args.bench {
-        session.print_json(&bench(&simulation, &scene, ended.elapsed))?;
+        session.print_json(&bench(&simulation, scene, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
-        let error = args.error(&scene, &simulation, session)?;
+        let error = args.error(scene, &simulation, session)?;
         let seen = Seen { rest: ended.rest, hashes, heights, limited, error };
-        let summary = Summary::new(&simulation, &scene, seen);
+        let summary = Summary::new(&simulation, scene, seen);
         session.print(&summary, &summary.text())?;
     }
     ended.result()
@@ -134,7 +137,7 @@ impl Args {
     fn check_outputs(&self, session: &Session) -> Result<()> {
         let prints = self.hash || self.bench || self.error || session.ui.json;
         outputs::check_stdout(self.fills_stdout(), prints)?;
-        let positions = self.positions.output()?;
+        let positions = self.positions.outputs()?;
         let positions = positions.iter().map(|(path, content)| (path.as_path(), *content));
         let csv = self.csv.iter().map(|path| (path.as_path(), Content::Text));
         let inputs: Vec<PathBuf> = self.scene.inputs().into_iter().chain(self.state.inputs()).collect();

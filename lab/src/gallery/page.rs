@@ -106,6 +106,7 @@ mod tests {
     use super::*;
     use crate::gallery::shot;
     use crate::gallery::table::parts;
+    use drape::output::provenance::Provenance;
     use drape::render::Options;
     use drape::scene::{Overrides, load_text};
 
@@ -115,7 +116,8 @@ mod tests {
         let text =
             r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}, "render": {"size": [2, 2]}}"#;
         let scene = load_text("ball", text, &Overrides::default()).unwrap().scene;
-        let shot = Shot { scene, options: Options::default(), frame: 0, allow_unstable: false };
+        let (options, provenance) = (Options::default(), Provenance::default());
+        let shot = Shot { scene, options, frame: 0, allow_unstable: false, provenance };
         let shown = shot::take(std::slice::from_ref(&shot), true, &|| Ok(())).unwrap();
         let parts = parts().unwrap();
         let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);

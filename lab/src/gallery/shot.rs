@@ -8,6 +8,7 @@ use drape::diagnostics::ledger::Ledger;
 use drape::diagnostics::stability::Stability;
 use drape::error::Result;
 use drape::output::png::{self, Effort};
+use drape::output::provenance::Provenance;
 use drape::render::{Options, Picture, Renderer};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
@@ -24,6 +25,8 @@ pub struct Shot {
     pub frame: u64,
     /// Whether the cloth may become unstable.
     pub allow_unstable: bool,
+    /// What the picture says of itself, but for its hashes.
+    pub provenance: Provenance,
 }
 
 /// A picture that was taken.
@@ -153,7 +156,8 @@ fn show(shot: &Shot, simulation: &Simulation, stability: Option<Stability>) -> R
         ledger: simulation.ledger(),
         stability,
     };
-    let png = png::encode(picture.width, picture.height, &picture.rgb, Effort::Fast)?;
+    let texts = shot.provenance.of_picture(state.state_hash, picture.hash()).texts();
+    let png = png::encode_with(picture.width, picture.height, &picture.rgb, Effort::Fast, &texts)?;
     Ok(Shown { png, half: half(&picture)?, state })
 }
 
@@ -186,7 +190,13 @@ mod tests {
         let sets = sets.iter().map(ToString::to_string).collect();
         let overrides = Overrides { sets, ..Overrides::default() };
         let scene = load_stock(Path::new(scene), &overrides).unwrap().scene;
-        Shot { scene, options: Options::default(), frame, allow_unstable: false }
+        Shot {
+            scene,
+            options: Options::default(),
+            frame,
+            allow_unstable: false,
+            provenance: Provenance::default(),
+        }
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::run::{start, table};
 use drape::diagnostics::rest::RestWatch;
 use drape::error::{Error, Kind, Result};
 use drape::output::png::{self, Effort};
+use drape::output::provenance::{Arguments, Provenance};
 use drape::render::{Options, Renderer};
 use drape::scene::sweep::{Picture, Spec, Until};
 use drape::scene::{ColliderKind, Flag, Overrides, Scene, load_text};
@@ -58,17 +59,17 @@ fn check_limit(limit: Option<f64>, elapsed: Duration) -> Result<()> {
 fn measure(plan: &Plan, case: &Case, each_frame: &mut dyn FnMut() -> Result<()>) -> Result<Outcome> {
     let spec = &plan.spec;
     let overrides = Overrides { sets: case.sets(), flags: flags(spec), ..Overrides::default() };
-    let scene = load_text(&plan.scene().name, &plan.scene().text, &overrides)?.scene;
+    let loaded = load_text(&plan.scene().name, &plan.scene().text, &overrides)?;
+    let scene = &loaded.scene;
     // All inputs are read before anything is simulated.
-    let renderer =
-        spec.render.as_ref().map(|_| Renderer::new(&scene, &TextureSource::BuiltIn)).transpose()?;
-    let frames = frames(spec.until, &scene);
-    let (mut simulation, _) = start::start(&scene, frames, None, false)?;
+    let renderer = spec.render.as_ref().map(|_| Renderer::new(scene, &TextureSource::BuiltIn)).transpose()?;
+    let frames = frames(spec.until, scene);
+    let (mut simulation, _) = start::start(scene, frames, None, false)?;
     if spec.measure.iter().any(|name| needs_ledger(name)) {
         simulation.record_ledger()?;
     }
     let mut rows = table::Rows::default();
-    let mut rest = Rest::new(spec, &scene, &simulation)?;
+    let mut rest = Rest::new(spec, scene, &simulation)?;
     each_frame()?;
     while simulation.frame() < frames {
         if simulation.frame() + 1 == frames {
@@ -86,7 +87,10 @@ fn measure(plan: &Plan, case: &Case, each_frame: &mut dyn FnMut() -> Result<()>)
     let values = values.filter(|(name, _)| spec.measure.contains(name)).collect();
     let picture = renderer.map(|renderer| {
         let picture = renderer.draw(simulation.positions(), &Options::default());
-        png::encode(picture.width, picture.height, &picture.rgb, Effort::Small)
+        let arguments = Arguments { frame: Some(simulation.frame()), ..Arguments::default() };
+        let provenance = Provenance::new(&loaded, arguments);
+        let texts = provenance.of_picture(simulation.state_hash(), picture.hash()).texts();
+        png::encode_with(picture.width, picture.height, &picture.rgb, Effort::Small, &texts)
     });
     Ok((Record { exit_code: 0, message: String::new(), values, picture: None }, picture.transpose()?))
 }

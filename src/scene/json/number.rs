@@ -9,7 +9,8 @@ pub(super) fn whole(value: f64) -> Option<i64> {
     (value.fract() == 0.0 && (-EXACT..=EXACT).contains(&value)).then_some(value as i64)
 }
 
-/// `value` as a document writes it: whole numbers without a point.
+/// `value` as a document writes it: whole numbers without a point, but for -0, which no integer is.
 pub(crate) fn number(value: f64) -> Value {
-    whole(value).map_or_else(|| json!(value), |whole| json!(whole))
+    let whole = whole(value).filter(|whole| *whole != 0 || value.is_sign_positive());
+    whole.map_or_else(|| json!(value), |whole| json!(whole))
 }

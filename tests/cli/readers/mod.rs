@@ -9,6 +9,7 @@
 mod animations;
 mod meshes;
 mod pictures;
+mod provenance;
 mod recipes;
 
 use std::path::PathBuf;

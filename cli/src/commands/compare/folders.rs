@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::pair::Comparison;
-use super::reel::ENDINGS;
 use super::verdict::{shown, verdict};
+use crate::animation::reel::ENDINGS;
 use drape::error::{Error, Kind, Result};
 
 /// How the pictures of two folders differ.

@@ -1,7 +1,6 @@
 //! `drape compare`: how two pictures or animations, or those of two folders, differ.
 
 mod verdict;
-mod reel;
 mod mask;
 mod pair;
 mod folders;

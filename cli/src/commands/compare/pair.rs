@@ -6,8 +6,8 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::mask::Mask;
-use super::reel::{Reel, Shown};
 use super::verdict::shown;
+use crate::animation::reel::{Reel, Shown};
 use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, Difference};
 use drape::output::png::Pixels;

@@ -9,14 +9,17 @@ use serde::Serialize;
 
 use crate::animation::pattern::Pattern;
 use crate::args::frames::Frames;
+use crate::args::provenance::ProvenanceArgs;
 use crate::args::scene::{Moment, SceneArgs};
 use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
 use drape::error::{Error, Kind, Result};
+use drape::math::StateHash;
 use drape::output::gltf::{Motion, Shape};
 use drape::output::part::Part;
+use drape::output::provenance::Arguments;
 use drape::scene::Scene;
 use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
@@ -48,6 +51,8 @@ pub(crate) struct Args {
     /// Read textures from this folder instead of the built-in set
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
+    #[command(flatten)]
+    provenance: ProvenanceArgs,
 }
 
 /// The summary.
@@ -64,44 +69,48 @@ struct Summary {
 
 /// Simulates and writes the meshes.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let scene = args.scene.load(session)?;
+    let loaded = args.scene.load_with_flags(&[], session)?;
+    let scene = &loaded.scene;
     let others = args.objects && !scene.colliders.is_empty();
     if scene.cloth.is_none() && !others {
         let nothing = "the scene has no cloth, so there is no mesh to export";
         return Err(Error::new(Kind::Nothing, nothing).with_help("--objects exports the other objects"));
     }
     let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
-    let (frames, until) = args.frames(&scene)?;
+    let (frames, until) = args.frames(scene)?;
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
-    writer.check(&inputs, &scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
-    let mut simulation = start(&scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    args.state.restore(&mut simulation, &scene, frames.start)?;
-    let mut saving = args.state.saving(&scene);
-    let mut motion = Motion::default();
-    let ended = advance_until(&mut simulation, &scene, until, session, |simulation| {
+    writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
+    let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
+    args.state.restore(&mut simulation, scene, frames.start)?;
+    let mut saving = args.state.saving(scene);
+    let (mut motion, mut states) = (Motion::default(), StateHash::default());
+    let ended = advance_until(&mut simulation, scene, until, session, |simulation| {
         match (&args.frames, format) {
-            (Some(frames), Format::Glb) => add(&mut motion, frames, simulation, &scene),
+            (Some(frames), Format::Glb) => add(&mut motion, &mut states, frames, simulation, scene),
             (Some(frames), _) if frames.0.contains(&simulation.frame()) => {
-                writer.frame(simulation.frame() - frames.0.start, &args.parts(&scene, simulation))?;
+                writer.frame(simulation.frame() - frames.0.start, &args.parts(scene, simulation))?;
             }
             _ => {}
         }
         saving.after_frame(simulation)
     })?;
     saving.finish(&simulation)?;
-    let parts = args.parts(&scene, &simulation);
+    let parts = args.parts(scene, &simulation);
     if writer.pattern.is_none() {
-        writer.whole(args.base(parts.clone(), &motion), Some(&motion).filter(|_| args.frames.is_some()))?;
+        let moves = args.frames.is_some();
+        let state = if moves { states.finish() } else { simulation.state_hash() };
+        let said = args.provenance.of(&loaded, args.arguments(&simulation));
+        writer.whole(args.base(parts.clone(), &motion), Some(&motion).filter(|_| moves), (state, &said))?;
     }
     writer.stale(frames.end - frames.start, session);
     args.report(&simulation, &parts, frames.end - frames.start, session)?;
     ended.result()
 }
 
-/// Takes the cloth into `motion`, if its frame is one of those.
-fn add(motion: &mut Motion, frames: &Frames, simulation: &Simulation, scene: &Scene) {
+/// Takes the cloth into `motion` and the hash of its state into `states`, if its frame is one of those.
+fn add(motion: &mut Motion, states: &mut StateHash, frames: &Frames, simulation: &Simulation, scene: &Scene) {
     let frame = simulation.frame();
     let Some(cloth) = Part::cloth(scene, simulation.positions()).filter(|_| frames.0.contains(&frame)) else {
         return;
@@ -112,6 +121,7 @@ fn add(motion: &mut Motion, frames: &Frames, simulation: &Simulation, scene: &Sc
         reason = "glTF has times of 32 bits"
     )]
     let time = ((frame - frames.0.start) as f64 / scene.sim.fps) as f32;
+    states.write(&simulation.state_hash().to_le_bytes());
     motion.times.push(time);
     motion.frames.push(Shape { positions: cloth.positions, normals: cloth.normals });
 }
@@ -124,6 +134,13 @@ impl Args {
             return Ok((until.frames..until.frames + 1, until));
         };
         Ok((frames.clone(), Until { frames: frames.end - 1, rest: false, watched: false }))
+    }
+
+    /// What is shown of the scene.
+    fn arguments(&self, simulation: &Simulation) -> Arguments {
+        let frames = self.frames.as_ref().map(|Frames(frames)| [frames.start, frames.end]);
+        let frame = frames.is_none().then(|| simulation.frame());
+        Arguments { frame, frames, objects: self.objects, ..Arguments::default() }
     }
 
     /// The pattern of numbered files, which go with --frames.

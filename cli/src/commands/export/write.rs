@@ -13,6 +13,7 @@ use drape::error::{Error, Kind, Result};
 use drape::output::gltf::{self, Motion};
 use drape::output::part::Part;
 use drape::output::png::{self, Effort};
+use drape::output::provenance::Provenance;
 use drape::output::{obj, ply};
 use drape::scene::{Needs, Scene};
 use drape::texture_source::TextureSource;
@@ -64,11 +65,17 @@ impl Writer<'_> {
         self.materials || self.format == Format::Glb
     }
 
-    /// Writes all in one file.
-    pub(super) fn whole(&self, parts: Vec<Part<'_>>, motion: Option<&Motion>) -> Result<()> {
+    /// Writes all in one file; one that has a place for it says `provenance` of itself, with the hash of the state.
+    pub(super) fn whole(
+        &self,
+        parts: Vec<Part<'_>>,
+        motion: Option<&Motion>,
+        provenance: (u64, &Provenance),
+    ) -> Result<()> {
         match self.format {
             Format::Glb => {
-                atomic::write(self.path, &gltf::encode(&parts, motion, |name| self.texture(name))?)
+                let bytes = gltf::encode(&parts, motion, Some(provenance), |name| self.texture(name))?;
+                atomic::write(self.path, &bytes)
             }
             _ => self.write(self.path, &parts),
         }

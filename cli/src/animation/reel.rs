@@ -16,13 +16,13 @@ use drape::output::png::Pixels;
 use drape::texture::{MAX_SIDE, orientation};
 
 /// Endings of the names of files with pictures, in lower case.
-pub(super) const ENDINGS: [&str; 5] = ["png", "apng", "gif", "jpg", "jpeg"];
+pub(crate) const ENDINGS: [&str; 5] = ["png", "apng", "gif", "jpg", "jpeg"];
 
 /// A file that is being read, picture after picture.
-pub(super) struct Reel {
+pub(crate) struct Reel {
     name: String,
     /// How often an animation is shown; 0 for ever.
-    pub(super) plays: u32,
+    pub(crate) plays: u32,
     pictures: Pictures,
 }
 
@@ -32,9 +32,9 @@ enum Pictures {
 }
 
 /// One picture and how long it is shown, as a fraction of a millisecond count; none of a single picture.
-pub(super) struct Shown {
-    pub(super) pixels: Pixels,
-    pub(super) delay: Option<(u32, u32)>,
+pub(crate) struct Shown {
+    pub(crate) pixels: Pixels,
+    pub(crate) delay: Option<(u32, u32)>,
 }
 
 impl Reel {
@@ -42,9 +42,17 @@ impl Reel {
     ///
     /// # Errors
     /// [`Kind::Io`] when it cannot be read or is none of these.
-    pub(super) fn open(path: &Path) -> Result<Self> {
+    pub(crate) fn open(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         let bytes = bounded::read(path, bounded::MOST).map_err(|e| failed(&name, &e))?;
+        Self::of(name, bytes)
+    }
+
+    /// The pictures in the bytes of a file called `name`.
+    ///
+    /// # Errors
+    /// As [`Reel::open`].
+    pub(crate) fn of(name: String, bytes: Vec<u8>) -> Result<Self> {
         let opened = fenced(|| match image::guess_format(&bytes) {
             Ok(ImageFormat::Png) => png(bytes),
             Ok(ImageFormat::Gif) => gif(bytes),
@@ -57,7 +65,7 @@ impl Reel {
     }
 
     /// Whether the file is an animation, of however many pictures.
-    pub(super) fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         matches!(self.pictures, Pictures::Moving(_))
     }
 
@@ -65,7 +73,7 @@ impl Reel {
     ///
     /// # Errors
     /// [`Kind::Io`] when it cannot be decoded.
-    pub(super) fn next(&mut self) -> Result<Option<Shown>> {
+    pub(crate) fn next(&mut self) -> Result<Option<Shown>> {
         match &mut self.pictures {
             Pictures::Still(picture) => Ok(picture.take().map(|pixels| Shown { pixels, delay: None })),
             Pictures::Moving(frames) => {
