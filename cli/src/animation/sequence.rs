@@ -10,8 +10,9 @@ use super::pattern::Pattern;
 use crate::session::files::atomic;
 use drape::bounded;
 use drape::error::{Error, Kind, Result};
-use drape::output::png::{self, Effort};
-use drape::output::provenance::{Arguments, Provenance};
+use drape::math::StateHash;
+use drape::output::png::{self, Effort, Pixels};
+use drape::output::provenance::{Arguments, Provenance, hex};
 use drape::render::Picture;
 
 /// Numbered pictures, some of which may be there from an earlier run.
@@ -19,12 +20,14 @@ pub(crate) struct Sequence<'a> {
     pub(crate) pattern: &'a Pattern,
     /// What every picture says of itself, but for its frame and hashes.
     pub(crate) provenance: Provenance,
+    /// Width and height.
+    pub(crate) size: [u32; 2],
 }
 
 impl Sequence<'_> {
     /// Whether picture `number` is there, complete, and shows `frame` of the same scene.
     pub(crate) fn has(&self, number: u64, frame: u64) -> bool {
-        let there = whole(&self.pattern.path(number));
+        let there = whole(&self.pattern.path(number), self.size);
         there.is_some_and(|there| there.is_like(&self.of(frame)))
     }
 
@@ -62,10 +65,15 @@ impl Sequence<'_> {
     }
 }
 
-/// What a picture says of itself, if it is whole to its last byte.
-fn whole(path: &Path) -> Option<Provenance> {
+/// What a picture says of itself, if it is whole to its last byte, of this size, and has the colours that it says.
+fn whole(path: &Path, size: [u32; 2]) -> Option<Provenance> {
     let provenance = said(path)?;
-    png::read(path).ok()?;
+    let Pixels { width, height, rgba } = png::read(path).ok()?;
+    let mut hash = StateHash::default();
+    rgba.iter().for_each(|[rgb @ .., _]| hash.write(rgb));
+    if [width, height] != size || provenance.picture != Some(hex(hash.finish())) {
+        return None;
+    }
     bounded::read(path, bounded::MOST).ok()?.ends_with(b"IEND\xAE\x42\x60\x82").then_some(provenance)
 }
 
@@ -85,10 +93,14 @@ mod tests {
         let pattern = Pattern::parse(&dir.path().join("%d.png")).unwrap();
         let path = pattern.path(0);
         let of = |scene: &str| Provenance { scene: scene.to_owned(), ..Provenance::default() };
-        let [a, b] = ["a", "b"].map(|scene| Sequence { pattern: &pattern, provenance: of(scene) });
+        let [a, b] =
+            ["a", "b"].map(|scene| Sequence { pattern: &pattern, provenance: of(scene), size: [2, 1] });
         let (rgb, depth, stats) = (vec![1, 2, 3, 4, 5, 6], vec![0.0; 2], Stats::default());
-        a.write(0, 7, 1, &Picture { width: 2, height: 1, rgb, depth, ids: Vec::new(), stats }).unwrap();
+        let picture = Picture { width: 2, height: 1, rgb, depth, ids: Vec::new(), stats };
+        a.write(0, 7, 1, &picture).unwrap();
         let bytes = fs::read(&path).unwrap();
+        let larger = Sequence { pattern: &pattern, provenance: of("a"), size: [2, 2] };
+        assert!(!larger.has(0, 7), "of another size");
         assert!(a.has(0, 7) && !a.has(0, 8) && !a.has(1, 7) && !b.has(0, 7));
         assert_eq!(png::read(&path).unwrap().rgba, [[1, 2, 3, 255], [4, 5, 6, 255]]);
         for cut in 0..bytes.len() {
@@ -101,6 +113,9 @@ mod tests {
             fs::write(&path, &bytes).unwrap();
             assert!(!a.has(0, 7), "byte {flipped} changed");
         }
+        let texts = a.of(7).of_picture(1, picture.hash()).texts();
+        fs::write(&path, png::encode_with(2, 1, &[9; 6], Effort::Fast, &texts).unwrap()).unwrap();
+        assert!(!a.has(0, 7), "other colours under the same words");
         fs::remove_file(&path).unwrap();
         fs::create_dir(&path).unwrap();
         assert!(!a.has(0, 7));

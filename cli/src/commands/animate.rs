@@ -85,7 +85,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let textures = args.render.texture_hash(scene, &renderer);
     let of =
         |arguments| Provenance { textures: textures.clone(), ..args.render.provenance(&loaded, arguments) };
-    let sequence = target.pattern().map(|pattern| Sequence { pattern, provenance: of(Arguments::default()) });
+    let sequence = target.pattern().map(|pattern| Sequence {
+        pattern,
+        provenance: of(Arguments::default()),
+        size: [width, height],
+    });
     if let Some(sequence) = &sequence {
         remove_stale(sequence, schedule.count(), session)?;
     }
