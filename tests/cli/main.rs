@@ -16,6 +16,7 @@ mod damaged;
 mod disk;
 mod docs;
 mod errors;
+mod everywhere;
 mod extremes;
 mod faults;
 mod files;
