@@ -26,6 +26,7 @@ mod live;
 #[path = "../support/mistakes.rs"]
 mod mistakes;
 mod pages;
+mod parts;
 mod positions;
 mod readers;
 mod readme;

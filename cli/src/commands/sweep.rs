@@ -10,6 +10,7 @@ use clap::Subcommand;
 use serde::Serialize;
 
 use crate::args::part::Part;
+use crate::commands::cells;
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -154,14 +155,9 @@ fn work(plan: &Plan, part: Part, session: &Session) -> Result<()> {
             }
             Event::Damaged(what) => session.ui.caution(&what, "it is run again"),
         }
-        session.signals.check().map_err(stopped)
+        cells::check_signals(session)
     };
     work::work(plan, |number| part.takes(number), u64::from(std::process::id()), &watch)
-}
-
-fn stopped(error: Error) -> Error {
-    Error { message: "stopped; the finished cases are kept".to_owned(), ..error }
-        .with_help("run the same command again to do the rest")
 }
 
 /// Writes the report.

@@ -104,8 +104,9 @@ fn link_to_live(picture: &Picture, shot: &Shot, live: &Live) -> Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gallery::shot;
+    use crate::gallery::reel::Reel;
     use crate::gallery::table::parts;
+    use crate::store::Store;
     use drape::render::Options;
     use drape::scene::{Overrides, load_text};
 
@@ -116,7 +117,9 @@ mod tests {
             r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0}, "render": {"size": [2, 2]}}"#;
         let scene = load_text("ball", text, &Overrides::default()).unwrap().scene;
         let shot = Shot { scene, options: Options::default(), frame: 0, allow_unstable: false };
-        let shown = shot::take(std::slice::from_ref(&shot), true, &|| Ok(())).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path(), |_, _| Ok(())).unwrap();
+        let shown = Reel::new(std::slice::from_ref(&shot), true, &store).take(&|| Ok(())).unwrap();
         let parts = parts().unwrap();
         let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);
         let count = pictures.count();
