@@ -13,7 +13,7 @@ const PAUSE: Duration = Duration::from_secs(5);
 /// The progress of work on one thread.
 pub(crate) struct Progress<'a> {
     ui: &'a Ui,
-    what: &'static str,
+    what: String,
     total: u64,
     /// What was done before it started.
     before: u64,
@@ -23,16 +23,15 @@ pub(crate) struct Progress<'a> {
 }
 
 impl<'a> Progress<'a> {
-    /// Starts to show work named `what`, such as `simulating`, of `total` equal pieces; the largest number means that
-    /// nobody knows.
-    pub(crate) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
+    /// Starts to show work named `what`, such as `simulating`, of `total` equal pieces.
+    pub(crate) fn new(ui: &'a Ui, what: impl Into<String>, total: u64) -> Self {
         Self::starting_at(ui, what, total, 0)
     }
 
     /// As [`Progress::new`], where `before` pieces are done already.
-    pub(crate) fn starting_at(ui: &'a Ui, what: &'static str, total: u64, before: u64) -> Self {
-        let now = Instant::now();
-        let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what, total));
+    pub(crate) fn starting_at(ui: &'a Ui, what: impl Into<String>, total: u64, before: u64) -> Self {
+        let (what, now) = (what.into(), Instant::now());
+        let bar = (ui.shows_progress() && ui::stderr_is_terminal()).then(|| bar(what.clone(), total));
         bar.iter().for_each(|bar| bar.set_position(before));
         bar.iter().for_each(ProgressBar::reset_eta);
         Self { ui, what, total, before, bar, started: now, told: now }
@@ -44,7 +43,7 @@ impl<'a> Progress<'a> {
             bar.set_position(done);
         } else if self.told.elapsed() >= PAUSE {
             self.told = Instant::now();
-            self.ui.note(&line(self.what, [self.before, done], self.total, self.started.elapsed()));
+            self.ui.note(&line(&self.what, [self.before, done], self.total, self.started.elapsed()));
         }
     }
 }
@@ -62,13 +61,8 @@ pub(crate) struct Tally<'a>(Mutex<(Progress<'a>, u64)>);
 
 impl<'a> Tally<'a> {
     /// As [`Progress::new`].
-    pub(crate) fn new(ui: &'a Ui, what: &'static str, total: u64) -> Self {
+    pub(crate) fn new(ui: &'a Ui, what: impl Into<String>, total: u64) -> Self {
         Self(Mutex::new((Progress::new(ui, what, total), 0)))
-    }
-
-    /// For work of which nobody knows how much it is.
-    pub(crate) fn open_ended(ui: &'a Ui, what: &'static str) -> Self {
-        Self::new(ui, what, u64::MAX)
     }
 
     /// Shows that `pieces` more are done, at most `total` in all.
@@ -82,12 +76,40 @@ impl<'a> Tally<'a> {
     }
 }
 
-fn bar(what: &'static str, total: u64) -> ProgressBar {
-    let known = (total < u64::MAX).then_some(total);
-    let bar = ProgressBar::with_draw_target(known, ProgressDrawTarget::stderr());
-    let template = if known.is_some() { "{msg} {wide_bar} {pos}/{len}, {eta} left" } else { "{msg} {pos}" };
+/// The progress of work in stages of which each is known only when it begins, on several threads.
+pub(crate) struct Stages<'a> {
+    ui: &'a Ui,
+    now: Mutex<Option<Tally<'a>>>,
+}
+
+impl<'a> Stages<'a> {
+    /// Before the first stage.
+    pub(crate) fn new(ui: &'a Ui) -> Self {
+        Self { ui, now: Mutex::new(None) }
+    }
+
+    /// The stage named `what`, of `total` pieces, begins.
+    pub(crate) fn begin(&self, what: String, total: u64) {
+        // The lock is poisoned only when a panic is about to end the program.
+        if let Ok(mut now) = self.now.lock() {
+            // The bar of the last stage goes before the next one is drawn.
+            drop(now.take());
+            *now = Some(Tally::new(self.ui, what, total));
+        }
+    }
+
+    /// Shows that `pieces` more of this stage are done.
+    pub(crate) fn add(&self, pieces: u64) {
+        if let Ok(now) = self.now.lock() {
+            now.iter().for_each(|stage| stage.add(pieces));
+        }
+    }
+}
+
+fn bar(what: String, total: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
     // The template is constant; if it did not parse, the default style would do.
-    if let Ok(style) = ProgressStyle::with_template(template) {
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
         bar.set_style(style);
     }
     bar.with_message(what)
@@ -98,9 +120,6 @@ const EARLY: u64 = 20;
 
 /// `done` of `total` and, after a twentieth of what was not done `before`, the seconds left at the same speed.
 fn line(what: &str, [before, done]: [u64; 2], total: u64, elapsed: Duration) -> String {
-    if total == u64::MAX {
-        return format!("{what}: {done}");
-    }
     let (left, new) = (total.saturating_sub(done), done.saturating_sub(before));
     if left == 0 || new < (total.saturating_sub(before)) / EARLY {
         return format!("{what}: {done} of {total}");
@@ -121,7 +140,6 @@ mod tests {
             "simulating: 20 of 80, about 30 s left"
         );
         assert_eq!(line("x", [0, 0], 0, Duration::ZERO), "x: 0 of 0");
-        assert_eq!(line("x", [0, 7], u64::MAX, Duration::from_secs(9)), "x: 7", "nobody knows the rest");
         assert_eq!(line("x", [0, 4], 100, Duration::from_secs(9)), "x: 4 of 100");
         assert_eq!(line("x", [0, 5], 100, Duration::from_secs(1)), "x: 5 of 100, about 19 s left");
         assert_eq!(line("x", [40, 60], 100, Duration::from_secs(10)), "x: 60 of 100, about 20 s left");
