@@ -22,6 +22,7 @@ mod files;
 mod gallery;
 mod golden;
 mod goldens;
+mod killed;
 mod live;
 #[path = "../support/mistakes.rs"]
 mod mistakes;

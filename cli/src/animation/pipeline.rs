@@ -3,6 +3,7 @@
 //! not depend on which is faster.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 
@@ -35,13 +36,11 @@ pub(crate) struct Pipeline<'a> {
     pub(crate) sequence: Option<Sequence<'a>>,
 }
 
-/// Where a simulation is when it is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
-    /// After a frame.
-    Frame,
-    /// At its end.
-    End,
+/// How many pictures were begun, and how many of them are in their files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pictures {
+    pub(crate) begun: u64,
+    pub(crate) written: u64,
 }
 
 /// What was drawn.
@@ -73,28 +72,35 @@ impl Pipeline<'_> {
         Ok(None)
     }
 
-    /// Simulates, draws and encodes the missing pictures up to number `last`; `each` sees the simulation after
-    /// every frame, and once more at the end.
+    /// Simulates up to picture number `last`, and draws and encodes the missing pictures; `each` sees the simulation
+    /// after every frame. Returns the simulation at the end too.
     pub(crate) fn run(
         &self,
         last: u64,
         simulation: Simulation,
-        each: impl FnMut(&Simulation, Stage) -> Result<()> + Send,
+        each: impl FnMut(&Simulation, Pictures) -> Result<()> + Send,
         session: &Session,
-    ) -> Result<Drawn> {
+    ) -> Result<(Drawn, Simulation)> {
         let file = self.target.open(self.playback, self.schedule.count())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
+        let written = &AtomicU64::new(0);
         thread::scope(|scope| {
             let (states, to_draw) = sync_channel(QUEUE);
             let (pictures, to_encode) = sync_channel(QUEUE);
-            let simulating = scope.spawn(move || self.simulate(last, simulation, &states, each, session));
-            let encoding = scope.spawn(move || self.encode(file, &to_encode));
+            let simulating = scope.spawn(move || {
+                let mut each = each;
+                let mut each = |now: &Simulation, begun| {
+                    each(now, Pictures { begun, written: written.load(Ordering::Acquire) })
+                };
+                self.simulate(last, simulation, &states, &mut each, session)
+            });
+            let encoding = scope.spawn(move || self.encode(file, &to_encode, written));
             let drawn = self.draw(to_draw, &pictures);
             drop(pictures);
-            joined(simulating)?;
+            let simulation = joined(simulating)?;
             let file = joined(encoding)?;
             session.signals.check()?;
-            file.map_or(Ok(()), Animation::finish).map(|()| drawn)
+            file.map_or(Ok(()), Animation::finish).map(|()| (drawn, simulation))
         })
     }
 
@@ -109,25 +115,29 @@ impl Pipeline<'_> {
         last: u64,
         mut simulation: Simulation,
         states: &SyncSender<Numbered<Points>>,
-        mut each: impl FnMut(&Simulation, Stage) -> Result<()>,
+        each: &mut dyn FnMut(&Simulation, u64) -> Result<()>,
         session: &Session,
-    ) -> Result<()> {
+    ) -> Result<Simulation> {
         let frames = self.schedule.frame(last);
         let mut progress = Progress::starting_at(&session.ui, "animating", frames, simulation.frame());
-        for k in (self.pictures.start..=last).filter(|&k| !self.has(k)) {
-            while simulation.frame() < self.schedule.frame(k) {
+        let mut begun = 0;
+        for k in self.pictures.start..=last {
+            let missing = !self.has(k);
+            // Frames after the last missing picture are simulated for the state at the end.
+            while (missing || k == last) && simulation.frame() < self.schedule.frame(k) {
                 session.signals.check()?;
                 simulation.advance_frame()?;
                 progress.set(simulation.frame());
-                each(&simulation, Stage::Frame)?;
+                each(&simulation, begun)?;
             }
             session.signals.check()?;
-            if states.send((k, simulation.positions().clone())).is_err() {
+            if missing && states.send((k, simulation.positions().clone())).is_err() {
                 break;
             }
+            begun += u64::from(missing);
         }
         warn_of_unsolved(&simulation, session);
-        each(&simulation, Stage::End)
+        Ok(simulation)
     }
 
     /// Draws each state and sends the picture; ends early when the receiver has gone.
@@ -149,12 +159,14 @@ impl Pipeline<'_> {
         &self,
         mut file: Option<Box<dyn Animation>>,
         pictures: &Receiver<Numbered<Picture>>,
+        written: &AtomicU64,
     ) -> Result<Option<Box<dyn Animation>>> {
         for (k, picture) in pictures {
             if let Some(file) = &mut file {
                 file.add(&picture.rgb)?;
             } else if let Some(sequence) = &self.sequence {
                 sequence.write(k, self.schedule.frame(k), &picture)?;
+                written.fetch_add(1, Ordering::Release);
             }
         }
         Ok(file)
