@@ -23,7 +23,7 @@ const RESIDUAL: f64 = 0.01;
 pub const QUIET: f64 = 0.5;
 
 /// What a cloth still does at the end of a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Motion {
     /// Largest mean speed of a point in the frame, in m/s.
     pub speed: f64,
@@ -36,6 +36,15 @@ impl Motion {
     fn most(self, other: Self) -> Self {
         Self { speed: self.speed.max(other.speed), residual: self.residual.max(other.residual) }
     }
+}
+
+/// For how long a cloth has been quiet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Quiet {
+    /// The last frames in which it was.
+    frames: u64,
+    /// The most that it did in them.
+    most: Motion,
 }
 
 /// Looks at a cloth frame by frame.
@@ -51,9 +60,7 @@ pub struct RestWatch {
     /// How the points moved in the last frame, if two were seen.
     moved: Points,
     frames: u64,
-    /// The last frames in which the cloth was quiet, and the most that it did in them.
-    quiet: u64,
-    most: Motion,
+    quiet: Quiet,
 }
 
 impl RestWatch {
@@ -76,19 +83,24 @@ impl RestWatch {
             x: x.clone(),
             moved: Points::zeros(x.len())?,
             frames: 0,
-            quiet: 0,
-            most: Motion::default(),
+            quiet: Quiet::default(),
         })
     }
 
-    /// A watch over a cloth that is in motion: at `x`, from `before` at the start of the frame.
+    /// A watch over a cloth that is in motion: at `x`, from `before` at the start of the frame, and `quiet` for so long.
     ///
     /// # Errors
     /// As [`RestWatch::new`].
-    pub fn in_motion(cloth: &Cloth, sim: &Sim, before: &Points, x: &Points) -> Result<Self> {
+    pub fn in_motion(cloth: &Cloth, sim: &Sim, [before, x]: [&Points; 2], quiet: Quiet) -> Result<Self> {
         let mut watch = Self::new(cloth, sim, before)?;
         watch.look(x);
+        watch.quiet = quiet;
         Ok(watch)
+    }
+
+    /// For how long the cloth has been quiet.
+    pub fn quiet(&self) -> Quiet {
+        self.quiet
     }
 
     /// The most that a cloth at rest does.
@@ -98,7 +110,7 @@ impl RestWatch {
 
     /// The most that the cloth did since it has been quiet.
     pub fn most(&self) -> Motion {
-        self.most
+        self.quiet.most
     }
 
     /// What the points, now at `x`, did in the frame that ended.
@@ -116,17 +128,17 @@ impl RestWatch {
         let limit = self.limit;
         // After one frame nobody knows the change.
         if self.frames > 1 && motion.speed <= limit.speed && motion.residual <= limit.residual {
-            self.quiet += 1;
-            self.most = self.most.most(motion);
+            self.quiet.frames += 1;
+            self.quiet.most = self.quiet.most.most(motion);
         } else {
-            (self.quiet, self.most) = (0, Motion::default());
+            self.quiet = Quiet::default();
         }
         motion
     }
 
     /// Whether the cloth is at rest: it was quiet for [`QUIET`] seconds, and at least two frames.
     pub fn is_rest(&self) -> bool {
-        self.quiet as f64 >= (QUIET * self.fps).max(2.0)
+        self.quiet.frames as f64 >= (QUIET * self.fps).max(2.0)
     }
 }
 

@@ -4,7 +4,8 @@
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 /// Figures that take little time, of several simulations and shaders.
 const FIGURES: [&str; 5] = ["part1-struct+bend", "part4-hd1", "part4-lk1", "part5-disp16", "part5-cballb"];
@@ -80,6 +81,71 @@ fn page_and_pictures_are_the_same_bytes_for_every_number_of_threads() {
     }
 }
 
+/// The files of states that are kept in a folder, in order.
+fn states(folder: &Path) -> Vec<PathBuf> {
+    let within = |folder: &Path| {
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path()).collect::<Vec<_>>()
+    };
+    let files = within(&folder.join("cells")).into_iter().flat_map(|folder| within(&folder));
+    let mut states: Vec<PathBuf> =
+        files.filter(|file| file.extension().is_some_and(|e| e == "state")).collect();
+    states.sort();
+    states
+}
+
+#[test]
+fn parts_in_any_order_kills_and_damage_change_no_byte() {
+    let folder = folder();
+    // Three moments of one simulation, one of another, and the start of a third.
+    let only = ["part4-hd1", "part4-hd2", "part4-hd3", "part4-lk1", "part1-all"];
+    let run = |out: &str, more: &[&str]| {
+        let only = only.iter().flat_map(|name| ["--only", name]);
+        let words = ["gallery", out, "--size", "64x50"].into_iter().chain(only).chain(more.iter().copied());
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("drape"));
+        command.current_dir(folder.path()).args(words).stderr(Stdio::piped()).stdout(Stdio::null());
+        command
+    };
+    let said = |mut command: Command| {
+        let output = command.output().expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let whole = said(run("whole", &[]));
+    assert!(!whole.contains("damaged"), "{whole}");
+    let [whole, parts] = ["whole", "parts"].map(|out| folder.path().join(out));
+    let count = states(&whole).len();
+    assert_eq!(count, 4);
+
+    // One part is killed once it has a state.
+    let mut killed = run("parts", &["--part", "1/2"]).spawn().expect("the program starts");
+    while states(&parts).is_empty() && killed.try_wait().expect("a status").is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    killed.kill().expect("a signal");
+    killed.wait().expect("a status");
+    said(run("parts", &["--part", "1/2"]));
+    assert_eq!(states(&parts).len(), 3, "the longest simulation");
+    said(run("parts", &["--part", "2/2"]));
+    assert!(!parts.join("part4-hd1.png").exists(), "a part takes no picture");
+    assert_eq!(states(&parts).len(), count);
+    assert!(said(run("parts", &["--part", "1/2"])).contains(": 0 results made, "), "nothing is run again");
+    let damaged = &states(&parts)[1];
+    let mut bytes = read(damaged.clone());
+    bytes[5000] ^= 1;
+    fs::write(damaged, &bytes).expect("a file");
+    let warned = said(run("parts", &[]));
+    assert_eq!(warned.matches("warning: the result `").count(), 1, "{warned}");
+    assert!(warned.contains("was damaged\n  = help: it was made again"), "{warned}");
+    let pictures = only.iter().map(|name| format!("{name}.png"));
+    for name in pictures.chain(["index.html".to_owned()]) {
+        let [whole, parts] = [&whole, &parts].map(|out| read(out.join(&name)));
+        assert!(whole == parts, "{name}");
+    }
+    for (a, b) in states(&whole).into_iter().zip(states(&parts)) {
+        assert!(a.file_name() == b.file_name() && read(a) == read(b));
+    }
+}
+
 #[test]
 fn a_page_of_some_figures_shows_these() {
     let folder = folder();
@@ -92,7 +158,10 @@ fn a_page_of_some_figures_shows_these() {
         fs::read_dir(folder.path().join("gallery")).expect("the folder").flatten().collect();
     names.sort_by_key(fs::DirEntry::file_name);
     let names: Vec<_> = names.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    assert_eq!(names, ["index.html", "part1-all.png", "part3-plane-textured.png", "part3-plane.png"]);
+    assert_eq!(
+        names,
+        ["cells", "index.html", "part1-all.png", "part3-plane-textured.png", "part3-plane.png"]
+    );
     let page = String::from_utf8(read(folder.path().join("gallery/index.html"))).expect("UTF-8");
     assert_eq!(between(&page, "<section id=\"", "\""), ["part1-all", "part3-plane"]);
 }

@@ -24,12 +24,14 @@ mod gallery;
 mod golden;
 mod goldens;
 mod injected;
+mod killed;
 mod limits;
 mod live;
 #[path = "../support/mistakes.rs"]
 mod mistakes;
 mod outside_text;
 mod pages;
+mod parts;
 mod positions;
 mod readers;
 mod readme;

@@ -363,6 +363,19 @@ fn frames_are_found_by_their_number_or_given() {
         let run = scratch.run(&[&["compare-positions", "scene.json", "theirs"], more].concat());
         assert_eq!((run.code, run.stdout.len()), (Some(code), 0), "{more:?}: {}", run.stderr);
     }
+    // The help names what was not given, or what would do.
+    let help = |file: &str, more: &[&str]| {
+        let run = scratch.run(&[&["compare-positions", "scene.json", file], more].concat());
+        run.stderr.split_once("= help: ").map(|(_, help)| help.trim().to_owned()).unwrap_or_default()
+    };
+    assert_eq!(help("theirs", &["--frame", "4"]), "give the frames of the states with --frames A..B");
+    assert_eq!(help("theirs", &["--frames", "2..9"]), "from frame 2 on they are --frames 2..12");
+    fs::write(scratch.path("0000.bin"), raw(&numbers[..state])).expect("a file");
+    assert_eq!(help("%04d.bin", &["--frame", "0"]), "leave out --frame and --frames");
+    let wrong = ["--set", "cloth.ks=4000", "--no-diagnosis"];
+    let tolerant = "--tolerance 1e-6 accepts differences that come from rounding";
+    assert_eq!(help("theirs", &wrong), tolerant);
+    assert_eq!(help("theirs", &[&wrong[..], &["--tolerance", "1e-12"]].concat()), "");
 }
 
 #[test]

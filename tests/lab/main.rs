@@ -8,6 +8,7 @@
 
 mod choose;
 mod findings;
+mod grader;
 mod horizon;
 #[path = "../support/repository.rs"]
 mod repository;

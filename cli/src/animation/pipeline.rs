@@ -3,8 +3,9 @@
 //! not depend on which is faster. Where no threads can be started, they follow each other.
 
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::sync_channel;
+use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ScopedJoinHandle};
 
 use super::format::{Animation, Playback};
@@ -41,13 +42,11 @@ pub(crate) struct Pipeline<'a> {
     pub(crate) provenance: Provenance,
 }
 
-/// Where a simulation is when it is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
-    /// After a frame.
-    Frame,
-    /// At its end.
-    End,
+/// How many pictures were begun, and how many of them are in their files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pictures {
+    pub(crate) begun: u64,
+    pub(crate) written: u64,
 }
 
 /// What was drawn.
@@ -65,6 +64,8 @@ struct Work<E> {
     simulation: Mutex<Simulation>,
     each: Mutex<E>,
     encoded: Mutex<Encoded>,
+    /// How many pictures are in their files.
+    written: AtomicU64,
 }
 
 /// What was encoded so far.
@@ -75,10 +76,10 @@ struct Encoded {
     states: StateHash,
 }
 
-/// What sees the simulation after every frame, and once more at the end.
-pub(crate) trait Each: FnMut(&Simulation, Stage) -> Result<()> + Send {}
+/// What sees the simulation after every frame.
+pub(crate) trait Each: FnMut(&Simulation, Pictures) -> Result<()> + Send {}
 
-impl<T: FnMut(&Simulation, Stage) -> Result<()> + Send> Each for T {}
+impl<T: FnMut(&Simulation, Pictures) -> Result<()> + Send> Each for T {}
 
 /// Something that belongs to one picture.
 struct Numbered<T> {
@@ -107,26 +108,28 @@ impl Pipeline<'_> {
         Ok(None)
     }
 
-    /// Simulates, draws and encodes the missing pictures up to number `last`.
+    /// Simulates up to picture number `last`, and draws and encodes the missing pictures; `each` sees the simulation
+    /// after every frame. Returns the simulation at the end too.
     pub(crate) fn run(
         &self,
         last: u64,
         simulation: Simulation,
         each: impl Each,
         session: &Session,
-    ) -> Result<Drawn> {
+    ) -> Result<(Drawn, Simulation)> {
         let file = self.target.open(self.playback, self.schedule.count(), self.provenance.clone())?;
         self.target.pattern().map_or(Ok(()), |pattern| outputs::make_folder(pattern.folder()))?;
         let encoded = Mutex::new(Encoded { file, states: StateHash::default() });
-        let work = Work { last, simulation: Mutex::new(simulation), each: Mutex::new(each), encoded };
+        let (simulation, each, written) = (Mutex::new(simulation), Mutex::new(each), AtomicU64::new(0));
+        let work = Work { last, simulation, each, encoded, written };
         let drawn = match self.side_by_side(&work, session)? {
             Some(drawn) => drawn,
             None => self.one_after_another(&work, session)?,
         };
         self.target.check_stop(&session.stop)?;
-        let mut encoded = locked(&work.encoded);
-        let states = encoded.states.finish();
-        encoded.file.take().map_or(Ok(()), |file| file.finish(states)).map(|()| drawn)
+        let Encoded { file, states } = unlocked(work.encoded);
+        file.map_or(Ok(()), |file| file.finish(states.finish()))?;
+        Ok((drawn, unlocked(work.simulation)))
     }
 
     /// The three stages, the first and the last on threads of their own; nothing if those cannot be started.
@@ -176,21 +179,26 @@ impl Pipeline<'_> {
         let (simulation, each) = (&mut *locked(&work.simulation), &mut *locked(&work.each));
         let frames = self.schedule.frame(work.last);
         let mut progress = Progress::starting_at(&session.ui, "animating", frames, simulation.frame());
-        for k in (self.pictures.start..=work.last).filter(|&k| !self.has(k)) {
-            while simulation.frame() < self.schedule.frame(k) {
+        let mut begun = 0;
+        for k in self.pictures.start..=work.last {
+            let missing = !self.has(k);
+            // Frames after the last missing picture are simulated for the state at the end.
+            while (missing || k == work.last) && simulation.frame() < self.schedule.frame(k) {
                 self.target.check_stop(&session.stop)?;
                 simulation.advance_frame()?;
                 progress.set(simulation.frame());
-                each(simulation, Stage::Frame)?;
+                each(simulation, Pictures { begun, written: work.written.load(Ordering::Acquire) })?;
             }
             self.target.check_stop(&session.stop)?;
-            let (state, content) = (simulation.state_hash(), simulation.positions().clone());
-            if !send(Numbered { k, state, content })? {
+            let state =
+                || Numbered { k, state: simulation.state_hash(), content: simulation.positions().clone() };
+            if missing && !send(state())? {
                 break;
             }
+            begun += u64::from(missing);
         }
         warn_of_unsolved(simulation, session);
-        each(simulation, Stage::End)
+        Ok(())
     }
 
     /// The picture of a state.
@@ -207,12 +215,19 @@ impl Pipeline<'_> {
         let Numbered { k, state, content: picture } = shown;
         let mut encoded = locked(&work.encoded);
         encoded.states.write(&state.to_le_bytes());
-        match (&mut encoded.file, &self.sequence) {
-            (Some(file), _) => file.add(&picture.rgb),
-            (None, Some(sequence)) => sequence.write(k, self.schedule.frame(k), state, &picture),
-            (None, None) => Ok(()),
+        if let Some(file) = &mut encoded.file {
+            file.add(&picture.rgb)?;
+        } else if let Some(sequence) = &self.sequence {
+            sequence.write(k, self.schedule.frame(k), state, &picture)?;
+            work.written.fetch_add(1, Ordering::Release);
         }
+        Ok(())
     }
+}
+
+/// The content of a lock that is needed no more.
+fn unlocked<T>(lock: Mutex<T>) -> T {
+    lock.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The result of a thread; its panic goes on in this one.

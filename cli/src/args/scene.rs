@@ -133,7 +133,7 @@ impl Moment {
         Until {
             frames: self.frame.unwrap_or_else(|| frame_at(time, scene)),
             rest: self.until_rest,
-            watched: false,
+            ..Until::default()
         }
     }
 }

@@ -10,7 +10,7 @@ use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
-use drape::simulation::snapshot::Snapshot;
+use drape::simulation::snapshot::{Seen, Snapshot};
 
 /// Where a run goes on from, and where it is saved.
 #[derive(clap::Args)]
@@ -48,24 +48,31 @@ impl StateArgs {
         self.from_state.as_deref().map(read).transpose()
     }
 
-    /// Takes `simulation` of `scene` to the saved state, if there is one; it will be advanced to frame `last`.
+    /// Takes `simulation` of `scene` to the saved state, if there is one, and returns what was seen of it before. The first frame that is asked for is `first`.
     ///
     /// # Errors
     /// As [`StateArgs::read`] and [`Simulation::restore`]; [`Kind::Usage`] when the state is of a later frame.
-    pub(crate) fn restore(&self, simulation: &mut Simulation, scene: &Scene, last: u64) -> Result<()> {
-        let Some(snapshot) = self.read()? else { return Ok(()) };
+    pub(crate) fn restore(&self, simulation: &mut Simulation, scene: &Scene, first: u64) -> Result<Seen> {
+        let Some(snapshot) = self.read()? else { return Ok(Seen::default()) };
         let frame = snapshot.frame();
-        if frame > last {
-            let message = format!("the state is at frame {frame}, after the last frame {last}");
-            return Err(Error::new(Kind::Usage, message).with_help("raise --time, --frame or --frames"));
+        if frame > first {
+            let message = format!("the state is at frame {frame}, after frame {first}, which is asked for");
+            return Err(Error::new(Kind::Usage, message)
+                .with_help("raise --time, --frame or --frames, or leave out --from-state"));
         }
-        simulation.restore(scene, &snapshot)
+        simulation.restore(scene, &snapshot)?;
+        Ok(snapshot.seen)
+    }
+
+    /// Whether the state at the end is asked for.
+    pub(crate) fn saves(&self) -> bool {
+        self.save_state.is_some()
     }
 
     /// What saves a run of `scene`.
     pub(crate) fn saving<'a>(&'a self, scene: &'a Scene) -> Saving<'a> {
         let every = self.checkpoint.map(Duration::from_secs_f64);
-        Saving { scene, path: self.save_state.as_deref(), every, saved: Instant::now() }
+        Saving { scene, path: self.save_state.as_deref(), every, taken: Instant::now(), waiting: None }
     }
 }
 
@@ -85,7 +92,10 @@ pub(crate) struct Saving<'a> {
     scene: &'a Scene,
     path: Option<&'a Path>,
     every: Option<Duration>,
-    saved: Instant,
+    /// When the last state was taken.
+    taken: Instant,
+    /// A state that is not saved yet, and the number of pictures that must be written first.
+    waiting: Option<(Snapshot, u64)>,
 }
 
 impl Saving<'_> {
@@ -93,23 +103,46 @@ impl Saving<'_> {
     ///
     /// # Errors
     /// As [`atomic::write`].
-    pub(crate) fn after_frame(&mut self, simulation: &Simulation) -> Result<()> {
-        match self.every {
-            Some(every) if self.saved.elapsed() >= every => {
-                self.finish(simulation)?;
-                self.saved = Instant::now();
-                Ok(())
-            }
-            _ => Ok(()),
+    pub(crate) fn after_frame(&mut self, simulation: &Simulation, seen: Seen) -> Result<()> {
+        if self.is_time() {
+            self.finish(simulation, seen)?;
         }
+        Ok(())
+    }
+
+    /// Takes the state after a frame if it is time, when `begun` pictures were begun, and saves it once as many of them
+    /// are `written`: a run that goes on from a state does not draw what was before it.
+    ///
+    /// # Errors
+    /// As [`atomic::write`].
+    pub(crate) fn after_pictures(&mut self, simulation: &Simulation, begun: u64, written: u64) -> Result<()> {
+        if self.waiting.is_none() && self.is_time() {
+            self.waiting = Some((simulation.snapshot(self.scene), begun));
+        }
+        let ready = self.waiting.take_if(|(_, begun)| *begun <= written);
+        ready.map_or(Ok(()), |(state, _)| self.write(&state))
+    }
+
+    /// Whether a state is to be taken now.
+    fn is_time(&mut self) -> bool {
+        let is_time = self.every.is_some_and(|every| self.taken.elapsed() >= every);
+        if is_time {
+            self.taken = Instant::now();
+        }
+        is_time
     }
 
     /// Saves the state, if it is asked for.
     ///
     /// # Errors
     /// As [`atomic::write`].
-    pub(crate) fn finish(&self, simulation: &Simulation) -> Result<()> {
-        let bytes = || simulation.snapshot(self.scene).encode();
-        self.path.map_or(Ok(()), |path| atomic::write(path, &bytes()))
+    pub(crate) fn finish(&self, simulation: &Simulation, seen: Seen) -> Result<()> {
+        let mut state = simulation.snapshot(self.scene);
+        state.seen = seen;
+        self.write(&state)
+    }
+
+    fn write(&self, state: &Snapshot) -> Result<()> {
+        self.path.map_or(Ok(()), |path| atomic::write(path, &state.encode()))
     }
 }

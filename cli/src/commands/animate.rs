@@ -6,7 +6,7 @@ use clap::builder::RangedU64ValueParser;
 use serde::Serialize;
 
 use crate::animation::format::{MAX_FPS, Playback};
-use crate::animation::pipeline::{Drawn, Pipeline, Stage};
+use crate::animation::pipeline::{Drawn, Pictures, Pipeline};
 use crate::animation::schedule::FrameSchedule;
 use crate::animation::sequence::Sequence;
 use crate::animation::target::{self, Target};
@@ -24,6 +24,7 @@ use drape::error::{Error, Kind, Result};
 use drape::output::provenance::{Arguments, Provenance};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
+use drape::simulation::snapshot::Seen;
 
 /// The arguments of `animate`.
 #[derive(clap::Args)]
@@ -105,22 +106,9 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         sequence,
         provenance: of(schedule.arguments()),
     };
-    let drawn = match pipeline.missing(session)? {
-        Some([first, last]) => {
-            let allowed = args.stability.allow_unstable;
-            let mut simulation = start(scene, schedule.frame(last), allowed, session)?;
-            args.state.restore(&mut simulation, scene, schedule.frame(first))?;
-            let mut saving = args.state.saving(scene);
-            let save = |now: &Simulation, stage| match stage {
-                Stage::Frame => saving.after_frame(now),
-                Stage::End => saving.finish(now),
-            };
-            pipeline.run(last, simulation, save, session)?
-        }
-        None => Drawn { pictures: 0, visible: true },
-    };
+    let drawn = args.draw(scene, &pipeline, session)?;
     args.finish(playback, share, share - drawn.pictures, session)?;
-    if !drawn.visible {
+    if drawn.pictures > 0 && !drawn.visible {
         warn_of_nothing_visible("the pictures", &session.ui);
     }
     Ok(())
@@ -148,6 +136,24 @@ fn remove_stale(sequence: &Sequence<'_>, count: u64, session: &Session) -> Resul
 }
 
 impl Args {
+    /// Draws the missing pictures, and saves the state at the end if that is asked for.
+    fn draw(&self, scene: &Scene, pipeline: &Pipeline<'_>, session: &Session) -> Result<Drawn> {
+        let end = pipeline.pictures.clone().next_back().filter(|_| self.state.saves());
+        let reached = match (pipeline.missing(session)?, end) {
+            (Some([first, last]), end) => Some([first, end.unwrap_or(last)]),
+            (None, end) => end.map(|end| [end; 2]),
+        };
+        let Some([first, last]) = reached else { return Ok(Drawn::default()) };
+        let mut simulation =
+            start(scene, pipeline.schedule.frame(last), self.stability.allow_unstable, session)?;
+        self.state.restore(&mut simulation, scene, pipeline.schedule.frame(first))?;
+        let mut saving = self.state.saving(scene);
+        let save = |now: &Simulation, Pictures { begun, written }| saving.after_pictures(now, begun, written);
+        let (drawn, simulation) = pipeline.run(last, simulation, save, session)?;
+        saving.finish(&simulation, Seen::default())?;
+        Ok(drawn)
+    }
+
     fn schedule(&self, scene: &Scene, fps: u16) -> Result<FrameSchedule> {
         let frames = self.frames.clone().map_or(0..frame_at(self.time, scene), |frames| frames.0);
         let schedule = FrameSchedule::new(frames, scene.sim.fps, fps);

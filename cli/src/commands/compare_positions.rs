@@ -10,12 +10,12 @@ use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
 use crate::session::files::target;
-use crate::session::progress::{Progress, Tally};
+use crate::session::progress::{Progress, Stages};
 use drape::cloth::Points;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
-use drape_lab::grader::{self, Case, Comparison, Difference, Ours, Pair, State, Watch};
+use drape_lab::grader::{self, Case, Comparison, Difference, Event, Ours, Pair, State};
 
 /// The arguments of `compare-positions`.
 #[derive(clap::Args)]
@@ -68,14 +68,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let ours = args.simulate(&scene, start.as_ref(), first_frame, theirs.len(), session)?;
     let last_frame = frame_at(None, &scene).max(first_frame + theirs.len() as u64);
     let case = Case { scene: &scene, cloth, first_frame, last_frame, start, ours: &ours, theirs: &theirs };
-    let progress = Tally::open_ended(&session.ui, "looking for the cause, frames simulated");
-    let watch = || {
-        progress.add(1);
-        session.stop.check()
-    };
-    let watch: Watch<'_> = &watch;
-    let comparison = Comparison::new(&case, args.tolerance, (!args.no_diagnosis).then_some(watch))?;
-    drop(progress);
+    let comparison = args.compare(&case, session)?;
     session.print(&comparison, &comparison.text())?;
     result(&comparison, args.tolerance)
 }
@@ -105,11 +98,28 @@ impl Args {
         if pair.differing == 0 { Ok(()) } else { Err(difference("the positions", "", self.tolerance)) }
     }
 
+    /// The result of the comparison, with the cause of a difference if that is asked for.
+    fn compare(&self, case: &Case<'_>, session: &Session) -> Result<Comparison> {
+        let progress = Stages::new(&session.ui);
+        let watch = |event| {
+            match event {
+                Event::Stage(what, frames) => progress.begin(what, frames),
+                Event::Frames(frames) => progress.add(frames),
+            }
+            session.stop.check()
+        };
+        Comparison::new(case, self.tolerance, (!self.no_diagnosis).then_some(&watch))
+    }
+
     /// The states of the other program, and the first one's frame if their names say it.
     fn read(&self, grid: [usize; 2]) -> Result<(Option<u64>, Vec<State>)> {
         let Some(pattern) = Pattern::parse(&self.file) else {
             return Ok((None, grader::read(&self.file, grid)?));
         };
+        if self.frame.is_some() || self.frames.is_some() {
+            let message = "the names of the files say their frames, so there are none to name";
+            return Err(Error::new(Kind::Usage, message).with_help("leave out --frame and --frames"));
+        }
         let folder = target::folder(&self.file);
         let entries = fs::read_dir(folder).map_err(|e| {
             Error::new(Kind::Io, format!("cannot read the folder `{}`: {e}", folder.display()))
@@ -168,9 +178,14 @@ impl Args {
         if frames.end - frames.start == count {
             return Ok(frames.start);
         }
-        let message =
-            format!("`{}` contains {count} states, not {}", self.file.display(), frames.end - frames.start);
-        Err(Error::new(Kind::Usage, message).with_help("give the frames of the states with --frames A..B"))
+        let plural = if count == 1 { "" } else { "s" };
+        let asked = frames.end - frames.start;
+        let message = format!("`{}` contains {count} state{plural}, not {asked}", self.file.display());
+        let (first, end) = (frames.start, frames.start.saturating_add(count));
+        Err(Error::new(Kind::Usage, message).with_help(match self.frames {
+            Some(_) => format!("from frame {first} on they are --frames {first}..{end}"),
+            None => "give the frames of the states with --frames A..B".to_owned(),
+        }))
     }
 }
 

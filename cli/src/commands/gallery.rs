@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::args::flag::{flag, size};
-use crate::commands::render;
+use crate::args::part::Part;
+use crate::commands::{cells, render};
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -15,7 +16,8 @@ use drape::error::{Error, Kind, Result};
 use drape::output::provenance::Arguments;
 use drape::scene::Flag;
 use drape_lab::gallery::page;
-use drape_lab::gallery::shot::{self, Shot, Shown, State};
+use drape_lab::gallery::reel::{Reel, Watch};
+use drape_lab::gallery::shot::{Shot, Shown, State};
 use drape_lab::gallery::table::{Picture, parts_called};
 use drape_lab::page::live::Live;
 
@@ -25,7 +27,7 @@ const INDEX: &str = "index.html";
 /// The arguments of `gallery`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The folder for the pictures and index.html
+    /// The folder for the pictures, index.html and the simulated states
     #[arg(value_name = "OUT", default_value = "gallery")]
     out: PathBuf,
     /// Draw and show only this figure, or, if no figure has this name, all whose names start with it, such as `part5`;
@@ -38,6 +40,9 @@ pub(crate) struct Args {
     /// Write only the pictures: no page, and no energy ledger, which takes three quarters of the time
     #[arg(long)]
     pictures: bool,
+    /// Simulate only part K of N and keep the states in OUT/cells, for the command without --part
+    #[arg(long, value_name = "K/N")]
+    part: Option<Part>,
     /// Link each picture on the page to its moment on the live page at this address (see web/README.md)
     #[arg(long, value_name = "URL", conflicts_with = "pictures")]
     live: Option<String>,
@@ -58,7 +63,7 @@ struct Made<'a> {
     state: State,
 }
 
-/// Draws all pictures, then writes them and the page.
+/// Simulates what OUT/cells does not have, draws all pictures, then writes them and the page.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let parts = parts_called(&args.only)?;
     let pictures: Vec<&Picture> = parts.iter().flat_map(|p| &p.figures).flat_map(|f| &f.pictures).collect();
@@ -70,7 +75,16 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let page = (!args.pictures).then_some((index.as_path(), Content::Text));
     outputs::check(&[], files.iter().map(|file| (file.as_path(), Content::Binary)).chain(page))?;
 
-    let shown = take(&shots, !args.pictures, session)?;
+    let store = cells::open(&args.out)?;
+    let reel = Reel::new(&shots, !args.pictures, &store);
+    if let Some(part) = args.part {
+        let reel = reel.only(|number| part.takes(number));
+        watched(&reel, session, |each_frame| reel.simulate(each_frame))?;
+        cells::finish_part(&store, &args.out, session);
+        return Ok(());
+    }
+    let shown = watched(&reel, session, |each_frame| reel.take(each_frame))?;
+    cells::warn_of_damaged(&store, session);
     for (file, shown) in files.iter().zip(&shown) {
         atomic::write(file, &shown.png)?;
     }
@@ -122,16 +136,15 @@ fn read(picture: &Picture, size: Option<Flag>) -> Result<Shot> {
     Ok(Shot { scene: loaded.scene, options, frame: until.frames, allow_unstable, provenance })
 }
 
-/// Takes the pictures and tells how far it is.
-fn take(shots: &[Shot], ledger: bool, session: &Session) -> Result<Vec<Shown>> {
-    let progress = Tally::new(&session.ui, "frames simulated", shot::frames(shots));
-    let each_frame = || {
+/// What `work` makes of `reel`, while it is told how far it is.
+fn watched<T>(reel: &Reel<'_>, session: &Session, work: impl FnOnce(Watch<'_>) -> Result<T>) -> Result<T> {
+    let progress = Tally::new(&session.ui, "frames simulated", reel.frames());
+    let made = work(&|| {
         progress.add(1);
-        session.stop.check()
-    };
-    let shown = shot::take(shots, ledger, &each_frame)?;
-    session.stop.check()?;
-    Ok(shown)
+        cells::check_stop(session)
+    })?;
+    cells::check_stop(session)?;
+    Ok(made)
 }
 
 #[cfg(test)]

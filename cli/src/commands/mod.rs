@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod cells;
 pub(crate) mod animate;
 pub(crate) mod check;
 pub(crate) mod choose;

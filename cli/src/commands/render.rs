@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{Moment, SceneArgs};
 use crate::args::state::StateArgs;
-use crate::run::advance::advance_until;
+use crate::run::advance::{Until, advance_until};
 use crate::run::bench;
 use crate::run::start::{renderer, start};
 use crate::session::Session;
@@ -91,10 +91,12 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let renderer = renderer(scene, &args.render.textures(), session)?;
     args.render.caution(scene, &renderer, &session.ui);
     let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    args.state.restore(&mut simulation, scene, until.frames)?;
+    let seen = args.state.restore(&mut simulation, scene, until.frames)?;
+    let until = Until { seen, ..until };
     let mut saving = args.state.saving(scene);
-    let ended = advance_until(&mut simulation, scene, until, session, |now| saving.after_frame(now))?;
-    saving.finish(&simulation)?;
+    let ended =
+        advance_until(&mut simulation, scene, until, session, |now, seen| saving.after_frame(now, seen))?;
+    saving.finish(&simulation, ended.seen)?;
     let options = args.render.options(args.ids.is_some());
     if let Some(runs) = args.bench {
         return bench::run(&renderer, simulation.positions(), &options, runs, session);

@@ -91,26 +91,25 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         simulation.record_ledger()?;
     }
     let heights = simulation.positions().y.clone();
-    args.state.restore(&mut simulation, scene, until.frames)?;
+    let seen = args.state.restore(&mut simulation, scene, until.frames)?;
+    let until = Until { seen, ..until };
     let mut saving = args.state.saving(scene);
     let mut hashes = Vec::new();
-    let (mut before, mut limited) = (0, 0);
-    let ended = advance_until(&mut simulation, scene, until, session, |now| {
-        let all = now.counters().springs_limited;
-        (limited, before) = (all - before, all);
+    let ended = advance_until(&mut simulation, scene, until, session, |now, seen| {
         table.iter_mut().for_each(|table| table.row(now));
         args.positions.after_frame(scene, said, now)?;
-        saving.after_frame(now)?;
+        saving.after_frame(now, seen)?;
         args.take_hash(now, session, &mut hashes)
     });
     let ended = args.write_failed(table.as_ref(), ended)?;
-    saving.finish(&simulation)?;
+    saving.finish(&simulation, ended.seen)?;
     args.positions.finish(scene, said, &simulation)?;
     args.write_table(table.as_ref())?;
     if args.bench {
         session.print_json(&bench(&simulation, scene, ended.elapsed))?;
     } else if !args.fills_stdout() && (!args.hash || session.ui.json) {
         let error = args.error(scene, &simulation, session)?;
+        let limited = ended.seen.springs_limited;
         let seen = Seen { rest: ended.rest, hashes, heights, limited, error };
         let summary = Summary::new(&simulation, scene, seen);
         session.print(&summary, &summary.text())?;
@@ -122,7 +121,7 @@ impl Args {
     fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));
         let frames = self.frames.unwrap_or_else(|| frame_at(time, scene));
-        Until { frames, rest: self.until_rest, watched: !self.bench }
+        Until { frames, rest: self.until_rest, watched: !self.bench, ..Until::default() }
     }
 
     /// How wrong the positions are, if that was asked for.

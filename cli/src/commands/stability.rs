@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
+use crate::commands::cells;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
@@ -74,11 +75,12 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
 
     let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
-    let store = Store::new(&args.out.join("cells"), atomic::write)?;
+    let store = cells::open(&args.out)?;
     if let Some(part) = args.part {
         return args.share(&scene, cloth, part, &store, session);
     }
     let (map, rows) = args.measure(&scene, cloth, &store, session)?;
+    cells::warn_of_damaged(&store, session);
     let results = Results { map: &map, extremes: &rows };
     let json = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;
     let [index, data] = files;
@@ -102,11 +104,10 @@ impl Args {
         let progress = Tally::new(&session.ui, "trying", range.end - range.start);
         let done = || {
             progress.add(1);
-            session.stop.check_keeping("finished results")
+            cells::check_stop(session)
         };
         Map::share(scene, cloth, &axes, store, &|number| part.takes(number), &done)?;
-        let [made, found] = store.counts();
-        session.ui.note(&format!("{}: {made} results made, {found} found", self.out.display()));
+        cells::finish_part(store, &self.out, session);
         Ok(())
     }
 
@@ -122,7 +123,7 @@ impl Args {
         let progress = Tally::new(&session.ui, "trying", total as u64);
         let done = || {
             progress.add(1);
-            session.stop.check_keeping("finished results")
+            cells::check_stop(session)
         };
         let map = Map::new(scene, cloth, axes, store, &done)?;
         let rows = extremes::table(&|sets| self.scene.load_with(sets), &mut || done())?;

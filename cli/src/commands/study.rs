@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::args::flag::seconds;
 use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
+use crate::commands::cells;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
@@ -13,7 +14,6 @@ use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
 use drape_lab::printable;
-use drape_lab::store::Store;
 use drape_lab::study::extent::{Extent, KEPT};
 use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
@@ -68,22 +68,22 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let folder = args.folder()?;
     let live = args.live.as_deref().map(|url| args.scene.live(url)).transpose()?;
     let steps = study::steps(&source, &extent)?;
-    let store = Store::new(&folder.join("cells"), atomic::write)?;
+    let store = cells::open(&folder)?;
     let [page, json, table] = ["index.html", "results.json", "results.csv"].map(|name| folder.join(name));
     let files = [&page, &json, &table].map(|file| (file.as_path(), Content::Text));
     outputs::check(&args.scene.inputs(), files)?;
     let progress = Tally::new(&session.ui, "studying, steps", steps);
     let watch = |made: u32| {
         progress.add(u64::from(made));
-        session.stop.check_keeping("finished runs")
+        cells::check_stop(session)
     };
     let study = study::run(&source, &textures, &extent, &store, &watch)?;
     drop(progress);
     if args.part.is_some() {
-        let [made, found] = store.counts();
-        session.ui.note(&format!("{}: {made} runs made, {found} found", folder.display()));
+        cells::finish_part(&store, &folder, session);
         return Ok(());
     }
+    cells::warn_of_damaged(&store, session);
     let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();
     let results = Results::new(&study, &name, store.counts());
     let text = serde_json::to_string_pretty(&results).map_err(|e| json_failed(&e))?;

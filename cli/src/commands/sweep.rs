@@ -9,6 +9,7 @@ use clap::Subcommand;
 use serde::Serialize;
 
 use crate::args::part::Part;
+use crate::commands::cells;
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -154,7 +155,7 @@ fn work(plan: &Plan, part: Part, session: &Session) -> Result<()> {
             }
             Event::Damaged(what) => session.ui.caution(&what, "it is run again"),
         }
-        session.stop.check_keeping("finished cases")
+        cells::check_stop(session)
     };
     work::work(plan, |number| part.takes(number), u64::from(std::process::id()), &watch)
 }

@@ -11,9 +11,10 @@ use drape::diagnostics::rest::{Motion, QUIET, RestWatch};
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::Simulation;
+use drape::simulation::snapshot::Seen;
 
 /// Where a simulation ends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Until {
     /// The last frame.
     pub(crate) frames: u64,
@@ -21,6 +22,8 @@ pub(crate) struct Until {
     pub(crate) rest: bool,
     /// Whether it is watched for rest although it does not end there.
     pub(crate) watched: bool,
+    /// What was seen of the motion before.
+    pub(crate) seen: Seen,
 }
 
 /// A simulation that has ended.
@@ -32,6 +35,8 @@ pub(crate) struct Ended {
     /// The error, of [`Kind::Difference`], of a cloth that should be at rest and is not. The command still
     /// writes its results and returns this error last.
     pub(crate) unsettled: Option<Error>,
+    /// What was seen of the motion; nothing if it was not watched.
+    pub(crate) seen: Seen,
 }
 
 /// The figures of a cloth at rest.
@@ -64,8 +69,8 @@ impl Ended {
     }
 }
 
-/// Advances the simulation of `scene` to its end; `each` is called at the start and after every frame. A
-/// scene without a cloth is always at rest.
+/// Advances the simulation of `scene` to its end; `each` is called at the start and after every frame, with
+/// what was seen of the motion. A scene without a cloth is always at rest.
 ///
 /// # Errors
 /// Those of the simulation and of `each`, and [`Kind::Signal`] between two frames.
@@ -74,31 +79,39 @@ pub(crate) fn advance_until(
     scene: &Scene,
     until: Until,
     session: &Session,
-    mut each: impl FnMut(&Simulation) -> Result<()>,
+    mut each: impl FnMut(&Simulation, Seen) -> Result<()>,
 ) -> Result<Ended> {
     let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest || until.watched) else {
         let last = if until.rest { 0 } else { until.frames };
-        let elapsed = advance_while(simulation, last, session, |simulation| each(simulation).map(|()| true))?;
-        return Ok(Ended { elapsed, rest: None, unsettled: None });
+        let elapsed = advance_while(simulation, last, session, |simulation| {
+            each(simulation, until.seen).map(|()| true)
+        })?;
+        return Ok(Ended { elapsed, rest: None, unsettled: None, seen: until.seen });
     };
     let first = simulation.frame();
     let now = simulation.positions();
     let mut watch = match first {
         0 => RestWatch::new(cloth, &scene.sim, now)?,
-        _ => RestWatch::in_motion(cloth, &scene.sim, simulation.positions_at_frame_start(), now)?,
+        _ => {
+            let points = [simulation.positions_at_frame_start(), now];
+            RestWatch::in_motion(cloth, &scene.sim, points, until.seen.quiet)?
+        }
     };
-    let mut motion = None;
+    let (mut motion, mut seen, mut limited) = (None, until.seen, simulation.counters().springs_limited);
     let elapsed = advance_while(simulation, until.frames, session, |simulation| {
-        each(simulation)?;
         if simulation.frame() > first {
             motion = Some(watch.look(simulation.positions()));
+            let all = simulation.counters().springs_limited;
+            seen = Seen { quiet: watch.quiet(), springs_limited: all - limited };
+            limited = all;
         }
+        each(simulation, seen)?;
         Ok(!(until.rest && watch.is_rest()))
     })?;
     let limit = watch.limit();
     let rest = watch.is_rest().then(|| Rest { quiet: QUIET, motion: watch.most(), limit });
     let unsettled = (until.rest && rest.is_none()).then(|| no_rest(simulation, motion, limit));
-    Ok(Ended { elapsed, rest, unsettled })
+    Ok(Ended { elapsed, rest, unsettled, seen })
 }
 
 /// Warns of steps in which an implicit integrator did not reach its tolerance.

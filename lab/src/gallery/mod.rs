@@ -3,5 +3,6 @@
 
 pub mod table;
 pub mod shot;
+pub mod reel;
 mod facts;
 pub mod page;

@@ -104,8 +104,9 @@ fn link_to_live(picture: &Picture, shot: &Shot, live: &Live) -> Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gallery::shot;
+    use crate::gallery::reel::Reel;
     use crate::gallery::table::parts;
+    use crate::store::Store;
     use drape::output::provenance::Provenance;
     use drape::render::Options;
     use drape::scene::{Overrides, load_text};
@@ -118,7 +119,9 @@ mod tests {
         let scene = load_text("ball", text, &Overrides::default()).unwrap().scene;
         let (options, provenance) = (Options::default(), Provenance::default());
         let shot = Shot { scene, options, frame: 0, allow_unstable: false, provenance };
-        let shown = shot::take(std::slice::from_ref(&shot), true, &|| Ok(())).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path(), |_, _| Ok(())).unwrap();
+        let shown = Reel::new(std::slice::from_ref(&shot), true, &store).take(&|| Ok(())).unwrap();
         let parts = parts().unwrap();
         let pictures = parts.iter().flat_map(|part| &part.figures).flat_map(|figure| &figure.pictures);
         let count = pictures.count();

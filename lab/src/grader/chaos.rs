@@ -2,6 +2,7 @@
 
 use super::case::{Case, Ours, ROUNDING, largest};
 use super::trials::WINDOW;
+use super::watch::{Event, Watch};
 use drape::cloth::{Counters, Points};
 use drape::error::{Kind, Result};
 use drape::math::splitmix64;
@@ -15,15 +16,17 @@ const MARGIN: f64 = 1e5;
 /// points of which each has another last bit, is as far from itself, but for a margin.
 ///
 /// # Errors
-/// Those of the simulation, and of `watch`, which is called after every frame.
-pub(super) fn reaches(case: &Case<'_>, distances: &[f64], watch: &dyn Fn() -> Result<()>) -> Result<bool> {
+/// Those of the simulation, and of `watch`.
+pub(super) fn reaches(case: &Case<'_>, distances: &[f64], watch: Watch<'_>) -> Result<bool> {
     let start = Simulation::starting_at(case.scene, case.start.as_ref())?.positions().clone();
     let mut twin = Simulation::starting_at(case.scene, Some(&nudged(&start)))?;
     twin.allow_unstable();
+    let last = case.frame(distances.len().saturating_sub(1));
+    watch(Event::Stage("running the method with another rounding, frames".into(), last))?;
     let mut most = f64::EPSILON;
     for (k, &distance) in distances.iter().enumerate() {
         while twin.frame() < case.frame(k) {
-            watch()?;
+            watch(Event::Frames(1))?;
             match twin.advance_frame() {
                 Err(error) if error.kind == Kind::Unstable => return Ok(true),
                 ended => ended?,

@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::case::Case;
 use super::divergence::Difference;
 use super::precision::Precision;
-use super::trials::{Tried, Watch};
+use super::trials::Tried;
 use super::verdict::Verdict;
+use super::watch::Watch;
 use drape::error::Result;
 
 /// How the positions of another program differ from ours.

@@ -4,6 +4,7 @@
 //! It knows mistakes that programs make, runs each of them, and reports the one that comes nearest to the
 //! other program's positions.
 
+mod watch;
 mod states;
 mod precision;
 mod case;
@@ -22,4 +23,5 @@ pub use comparison::Comparison;
 pub use divergence::{Difference, start_of};
 pub use pair::Pair;
 pub use states::{Numbers, State, read, read_numbers};
-pub use trials::{Tried, Watch};
+pub use trials::Tried;
+pub use watch::{Event, Watch};

@@ -70,6 +70,13 @@ pub(super) struct Target<'a> {
     pub(super) state: &'a State,
 }
 
+impl Target<'_> {
+    /// The most frames that a fit simulates.
+    pub(super) fn most_frames(&self) -> u64 {
+        2 * ITERATIONS as u64 * self.frame
+    }
+}
+
 impl Number {
     /// The scene with the value at which ours comes nearest to theirs, as a mistake; `None` if the number has no
     /// effect, or no valid value comes nearer.

@@ -6,10 +6,8 @@ use serde::Serialize;
 use super::case::{Case, Ours};
 use super::mistakes::Mistake;
 use super::precision::Precision;
+use super::watch::{Event, Run, Watch};
 use drape::error::{Kind, Result};
-
-/// Hears of every frame that is simulated, from several threads; an error that it returns ends the search.
-pub type Watch<'a> = &'a (dyn Fn() -> Result<()> + Sync);
 
 /// The most states after the first clear difference that a mistake is compared with. Later ones are chaotic.
 pub(super) const WINDOW: usize = 10;
@@ -43,12 +41,13 @@ impl Tried {
     }
 }
 
-/// Runs every mistake over some states from `k` on; the one that comes nearest to theirs is the first. `watch`
-/// is called after every frame.
+/// Runs every mistake over some states from `k` on; the one that comes nearest to theirs is the first. `what`
+/// names the mistakes for `watch`.
 ///
 /// # Errors
 /// Those of the simulations and of `watch`.
 pub(super) fn run(
+    what: &str,
     case: &Case<'_>,
     mistakes: &[Mistake],
     k: usize,
@@ -60,8 +59,15 @@ pub(super) fn run(
     let window = k..k + finite.count();
     let error = |ours: &[Ours]| case.distances(window.clone(), ours, precision).iter().sum::<f64>();
     let without = error(&case.ours[window.clone()]);
+    let frames = case.frame(k) + window.len() as u64;
+    watch(Event::Stage(
+        format!("running {} {what}, frames", mistakes.len()),
+        frames * mistakes.len() as u64,
+    ))?;
     let tried = mistakes.par_iter().map(|mistake| {
-        let states = mistake.states(case.start.as_ref(), case.frame(k), window.len(), watch);
+        let run = Run::new(watch, frames);
+        let states = mistake.states(case.start.as_ref(), case.frame(k), window.len(), &|| run.frame());
+        run.finish()?;
         let left = match states {
             // A mistake that is unstable is not the one that was made.
             Err(error) if error.kind == Kind::Unstable => f64::MAX,

@@ -10,7 +10,8 @@ use super::mistakes::{self, Mistake};
 use super::numbers::{NUMBERS, Target};
 use super::precision::Precision;
 use super::states::State;
-use super::trials::{self, Tried, WINDOW, Watch};
+use super::trials::{self, Tried, WINDOW};
+use super::watch::{Event, Run, Watch};
 use drape::cloth::Counters;
 use drape::error::Result;
 use drape::scene::{ColliderKind, Orientation};
@@ -40,8 +41,8 @@ impl Verdict {
         Self { words: words.into(), mistakes: Vec::new() }
     }
 
-    /// The cause of the differences of `case` beyond `tolerance`, in metres. `watch` is called after
-    /// every frame.
+    /// The cause of the differences of `case` beyond `tolerance`, in metres. `watch` hears how far
+    /// the search is.
     ///
     /// # Errors
     /// Those of the simulations and of `watch`.
@@ -65,9 +66,11 @@ impl Verdict {
 
     /// The verdict on state `k` after running the mistakes.
     fn by_trials(case: &Case<'_>, k: usize, precision: &Precision, watch: Watch<'_>) -> Result<Self> {
-        let mut mistakes = trials::run(case, &mistakes::all(case.scene), k, precision, watch)?;
+        let mut mistakes =
+            trials::run("known mistakes", case, &mistakes::all(case.scene), k, precision, watch)?;
         if mistakes.first().is_none_or(|best| !best.explains()) {
-            mistakes.extend(trials::run(case, &wrong_numbers(case, k, watch)?, k, precision, watch)?);
+            let numbers = wrong_numbers(case, k, watch)?;
+            mistakes.extend(trials::run("wrong numbers", case, &numbers, k, precision, watch)?);
             mistakes.sort_by(|a, b| a.left.total_cmp(&b.left));
         }
         let words = match mistakes.first() {
@@ -132,11 +135,12 @@ fn other_order(case: &Case<'_>, k: usize, precision: &Precision) -> Option<Strin
 fn other_frame(case: &Case<'_>, k: usize, precision: &Precision, watch: Watch<'_>) -> Result<Option<String>> {
     let mut simulation = Simulation::starting_at(case.scene, case.start.as_ref())?;
     simulation.allow_unstable();
+    watch(Event::Stage("looking for the state among all frames".into(), case.last_frame + 1))?;
     let near = |simulation: &Simulation, state: &State| {
         largest_beyond(simulation.positions(), state, precision) <= CLEAR
     };
     while simulation.frame() <= case.last_frame {
-        watch()?;
+        watch(Event::Frames(1))?;
         let (frame, here) = (simulation.frame(), near(&simulation, &case.theirs[k]));
         let ended = simulation.advance_frame().is_err();
         let next = case.theirs.get(k + 1).is_none_or(|next| near(&simulation, next));
@@ -166,7 +170,14 @@ fn wrong_numbers(case: &Case<'_>, k: usize, watch: Watch<'_>) -> Result<Vec<Mist
     let Case { scene, cloth, .. } = *case;
     let target =
         Target { scene, cloth, start: case.start.as_ref(), frame: case.frame(k), state: &case.theirs[k] };
-    let fitted = NUMBERS.par_iter().map(|number| number.fit(&target, &|| watch()));
+    let frames = target.most_frames();
+    let stage = format!("fitting {} numbers of the scene, frames at most", NUMBERS.len());
+    watch(Event::Stage(stage, frames * NUMBERS.len() as u64))?;
+    let fitted = NUMBERS.par_iter().map(|number| {
+        let run = Run::new(watch, frames);
+        let fitted = number.fit(&target, &|| run.frame());
+        run.finish().and(fitted)
+    });
     Ok(fitted.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
 

@@ -12,11 +12,13 @@
 //! ignores claims is right too, and a claim whose worker is gone loses nothing.
 
 mod address;
+mod attached;
 
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -32,13 +34,14 @@ pub type WriteFile = fn(&Path, &[u8]) -> Result<()>;
 /// The ending of the files of results.
 const ENDING: &str = ".jsonl";
 
-/// A folder of finished results, and how many were computed and found.
+/// A folder of finished results, and how many were computed, found, and found damaged.
 #[derive(Debug)]
 pub struct Store {
     folder: PathBuf,
     write: WriteFile,
     made: AtomicU64,
     found: AtomicU64,
+    damaged: Mutex<Vec<PathBuf>>,
 }
 
 /// What the store has of a result.
@@ -59,7 +62,8 @@ impl Store {
     /// [`Kind::Io`] when that fails.
     pub fn new(folder: &Path, write: WriteFile) -> Result<Self> {
         make_folder(folder)?;
-        Ok(Self { folder: folder.to_owned(), write, made: AtomicU64::new(0), found: AtomicU64::new(0) })
+        let [made, found] = [0, 0].map(AtomicU64::new);
+        Ok(Self { folder: folder.to_owned(), write, made, found, damaged: Mutex::default() })
     }
 
     /// How many results were computed, and how many were found.
@@ -67,11 +71,25 @@ impl Store {
         [&self.made, &self.found].map(|count| count.load(Ordering::Relaxed))
     }
 
-    /// The result at `key`, if a whole one is stored.
+    /// The files of damaged results that were asked for since the last call, each of which is to be made again.
+    pub fn take_damaged(&self) -> Vec<PathBuf> {
+        std::mem::take(&mut self.damaged.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The result at `key`, if a whole one is stored; notes a damaged one.
     pub(crate) fn get<T: DeserializeOwned>(&self, key: Address) -> Option<T> {
-        match self.read(key) {
+        self.whole(key, self.read(key))
+    }
+
+    /// The result in the entry at `key`, if it is whole; notes a damaged one.
+    fn whole<T>(&self, key: Address, entry: Entry<T>) -> Option<T> {
+        match entry {
             Entry::Whole(result) => Some(result),
-            Entry::Missing | Entry::Damaged => None,
+            Entry::Missing => None,
+            Entry::Damaged => {
+                self.damaged.lock().unwrap_or_else(PoisonError::into_inner).push(self.path(key));
+                None
+            }
         }
     }
 
@@ -102,11 +120,11 @@ impl Store {
         self.made.fetch_add(1, Ordering::Relaxed);
         let line = serde_json::to_string(result)
             .map_err(|e| Error::new(Kind::Internal, format!("cannot write JSON: {e}")))?;
-        self.write(&self.path(key), format!("{line}\n\"{}\"\n", checksum(&line)).as_bytes())
+        self.write(&self.path(key), format!("{line}\n\"{}\"\n", checksum(line.as_bytes())).as_bytes())
     }
 
     /// Writes a file into the store, whole or not at all; its folder is created if it is missing.
-    pub(crate) fn write(&self, path: &Path, bytes: &[u8]) -> Result<()> {
+    fn write(&self, path: &Path, bytes: &[u8]) -> Result<()> {
         path.parent().map_or(Ok(()), make_folder)?;
         (self.write)(path, bytes)
     }
@@ -162,7 +180,7 @@ impl Store {
     }
 
     /// The file beside the result at `key` with another ending.
-    pub(crate) fn beside(&self, key: Address, ending: &str) -> PathBuf {
+    fn beside(&self, key: Address, ending: &str) -> PathBuf {
         let name = key.to_string();
         self.folder.join(name.get(..2).unwrap_or_default()).join(name + ending)
     }
@@ -179,13 +197,14 @@ impl Store {
 /// The result in the text of a file.
 fn decode<T: DeserializeOwned>(text: &str) -> Option<T> {
     let (line, rest) = text.split_once('\n')?;
-    let whole = rest.strip_suffix('\n')?.trim_matches('"') == checksum(line);
+    let whole = rest.strip_suffix('\n')?.trim_matches('"') == checksum(line.as_bytes());
     serde_json::from_str(line).ok().filter(|_| whole)
 }
 
-fn checksum(line: &str) -> String {
+/// The hash of `bytes` in hexadecimal digits.
+fn checksum(bytes: &[u8]) -> String {
     let mut hash = StateHash::default();
-    hash.write(line.as_bytes());
+    hash.write(bytes);
     format!("{:016x}", hash.finish())
 }
 

@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::store::{Address, Entry, Store};
-use drape::bounded;
 use drape::error::{Error, Result};
-use drape::math::StateHash;
 
 /// The ending of the pictures in the store.
 const PICTURE: &str = ".png";
@@ -89,8 +87,7 @@ impl Store {
 
     /// The bytes of the picture of a record, if they are those that were written.
     pub(super) fn picture(&self, address: Address, record: &Record) -> Option<Vec<u8>> {
-        let bytes = bounded::read(&self.beside(address, PICTURE), bounded::MOST).ok()?;
-        (record.picture.as_deref() == Some(&hash(&bytes))).then_some(bytes)
+        self.attached(address, PICTURE, record.picture.as_deref()?)
     }
 
     /// Stores a record, after its picture.
@@ -104,15 +101,8 @@ impl Store {
         picture: Option<&[u8]>,
     ) -> Result<()> {
         if let Some(bytes) = picture {
-            self.write(&self.beside(address, PICTURE), bytes)?;
-            record.picture = Some(hash(bytes));
+            record.picture = Some(self.attach(address, PICTURE, bytes)?);
         }
         self.put(address, &record)
     }
-}
-
-fn hash(bytes: &[u8]) -> String {
-    let mut hash = StateHash::default();
-    hash.write(bytes);
-    format!("{:016x}", hash.finish())
 }

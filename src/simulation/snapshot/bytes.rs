@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::Snapshot;
+use super::{Seen, Snapshot};
 use crate::cloth::{Counters, Points};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::{Error, Kind, Result};
@@ -32,6 +32,8 @@ struct Header {
     counters: Counters,
     /// The entries of the ledger, in J.
     ledger: Option<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Seen::is_nothing")]
+    seen: Seen,
     scene: Vec<(String, Value)>,
 }
 
@@ -48,6 +50,7 @@ impl Snapshot {
             arrays: self.arrays.len(),
             counters: self.counters,
             ledger: self.ledger.map(|ledger| ledger.entries().map(|(_, entry)| entry).collect()),
+            seen: self.seen,
             scene: self.scene.clone(),
         };
         // Numbers, names and lists of them are always JSON.
@@ -89,6 +92,7 @@ impl Snapshot {
             steps_per_frame: header.steps_per_frame,
             counters: header.counters,
             ledger: ledger.transpose()?,
+            seen: header.seen,
             arrays: arrays.ok_or_else(damaged)?,
         })
     }

@@ -6,17 +6,35 @@
 
 mod bytes;
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::Simulation;
 use super::ledger_recorder::LedgerRecorder;
 use crate::cloth::{Counters, Points};
 use crate::diagnostics::ledger::Ledger;
+use crate::diagnostics::rest::Quiet;
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
 
 /// The version of the program, which a state does not outlive.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What who watches a simulation knows of its last frames, which the state alone does not tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seen {
+    /// For how long the cloth has been quiet.
+    pub quiet: Quiet,
+    /// Springs that the stretch limit shortened in the last frame.
+    pub springs_limited: u64,
+}
+
+impl Seen {
+    /// Whether nothing was seen, which a file need not say.
+    fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
+}
 
 /// The state of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +48,8 @@ pub struct Snapshot {
     counters: Counters,
     /// The ledger, if one was recorded.
     ledger: Option<Ledger>,
+    /// What was seen of the motion; nothing if it was not watched.
+    pub seen: Seen,
     /// Positions, last positions, positions at the start of the frame, and what the integrator remembers, in
     /// metres and metres per second; nothing without a cloth.
     arrays: Vec<Points>,
@@ -82,7 +102,7 @@ fn differences(saved: &[(String, Value)], given: &[(String, Value)]) -> Vec<Stri
 }
 
 impl Simulation {
-    /// The whole state of this simulation of `scene`.
+    /// The whole state of this simulation of `scene`, without what was seen of it.
     pub fn snapshot(&self, scene: &Scene) -> Snapshot {
         let arrays = self.cloth.iter().flat_map(|cloth| {
             let now = [&cloth.x, &cloth.last].into_iter().chain(cloth.frame_start.first());
@@ -95,6 +115,7 @@ impl Simulation {
             steps_per_frame: self.steps_per_frame,
             counters: self.observers.counters,
             ledger: self.ledger(),
+            seen: Seen::default(),
             arrays: arrays.cloned().collect(),
         }
     }

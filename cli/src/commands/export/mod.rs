@@ -83,10 +83,11 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
     writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
     let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
-    args.state.restore(&mut simulation, scene, frames.start)?;
+    let seen = args.state.restore(&mut simulation, scene, frames.start)?;
+    let until = Until { seen, ..until };
     let mut saving = args.state.saving(scene);
     let (mut motion, mut states) = (Motion::default(), StateHash::default());
-    let ended = advance_until(&mut simulation, scene, until, session, |simulation| {
+    let ended = advance_until(&mut simulation, scene, until, session, |simulation, seen| {
         match (&args.frames, format) {
             (Some(frames), Format::Glb) => add(&mut motion, &mut states, frames, simulation, scene),
             (Some(frames), _) if frames.0.contains(&simulation.frame()) => {
@@ -94,9 +95,9 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
             }
             _ => {}
         }
-        saving.after_frame(simulation)
+        saving.after_frame(simulation, seen)
     })?;
-    saving.finish(&simulation)?;
+    saving.finish(&simulation, ended.seen)?;
     let parts = args.parts(scene, &simulation);
     if writer.pattern.is_none() {
         let moves = args.frames.is_some();
@@ -133,7 +134,7 @@ impl Args {
             let until = self.moment.until(scene);
             return Ok((until.frames..until.frames + 1, until));
         };
-        Ok((frames.clone(), Until { frames: frames.end - 1, rest: false, watched: false }))
+        Ok((frames.clone(), Until { frames: frames.end - 1, ..Until::default() }))
     }
 
     /// What is shown of the scene.
