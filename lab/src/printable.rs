@@ -29,12 +29,13 @@ pub fn line(text: &str) -> String {
     text.chars().map(|c| if acts(c) { stand_in(c) } else { c }).collect()
 }
 
-/// JSON in which the same characters are escaped. It means the same: they stand only within strings.
+/// JSON in which the same characters are escaped. It means the same: they stand only within strings, but for line feeds
+/// and tabs, which stand only outside.
 pub fn json(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         // All of them fit into one unit of UTF-16.
-        if acts(c) { escaped += &format!("\\u{:04x}", u32::from(c)) } else { escaped.push(c) }
+        if acts(c) && !matches!(c, '\n' | '\t') { escaped += &format!("\\u{:04x}", u32::from(c)) } else { escaped.push(c) }
     }
     escaped
 }
@@ -52,5 +53,6 @@ mod tests {
         let escaped = json(&serde_json::to_string(value).unwrap());
         assert_eq!(escaped, "\"\\u009b\\u007f\\u2028\\u001b\"");
         assert_eq!(serde_json::from_str::<String>(&escaped).unwrap(), value);
+        assert_eq!(json("{\n\t\"a\": 1\n}"), "{\n\t\"a\": 1\n}");
     }
 }
