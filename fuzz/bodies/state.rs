@@ -15,6 +15,9 @@ const SCENE: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 3
     "plane": {"point": [0, 0.97, 0], "normal": [0.1, 1, 0], "friction": 0.4},
     "sim": {"fps": 60, "steps_per_frame": 2}}"#;
 
+/// Most bytes that reading an input may hold at once; it has some kilobytes.
+const MOST_BYTES: u64 = 8 << 20;
+
 /// Ways to move it. The first byte of an input chooses one.
 const WAYS: [&[&str]; 8] = [
     &[],
@@ -49,7 +52,10 @@ fn with_checksum(content: &[u8]) -> Vec<u8> {
 
 /// A state is refused, or it is written as it was read and the simulation goes on from it.
 fn goes_on(scene: &Scene, bytes: &[u8]) {
-    let snapshot = match Snapshot::decode(bytes) {
+    let mut decoded = None;
+    let memory = allocation_counter::measure(|| decoded = Some(Snapshot::decode(bytes)));
+    assert!(memory.bytes_max <= MOST_BYTES, "{memory:?}");
+    let snapshot = match decoded.expect("it was decoded") {
         Ok(snapshot) => snapshot,
         Err(error) => return assert_eq!(error.kind, Kind::Io, "{error:?}"),
     };
