@@ -35,7 +35,11 @@ pub fn json(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         // All of them fit into one unit of UTF-16.
-        if acts(c) && !matches!(c, '\n' | '\t') { escaped += &format!("\\u{:04x}", u32::from(c)) } else { escaped.push(c) }
+        if acts(c) && !matches!(c, '\n' | '\t') {
+            escaped += &format!("\\u{:04x}", u32::from(c))
+        } else {
+            escaped.push(c)
+        }
     }
     escaped
 }

@@ -95,6 +95,17 @@ fn a_plan_that_no_disk_holds_is_refused() {
     assert!(run.stderr.contains("the sweep has 10000000000 cases, more than 1000000000"), "{}", run.stderr);
 }
 
+#[test]
+fn ranges_that_no_memory_holds_are_refused() {
+    let axis = |i: usize| format!(r#""sphere.{i}.radius": {{"from": 1, "to": 2, "count": 1000000}}"#);
+    let set = (0..6).map(axis).collect::<Vec<_>>().join(", ");
+    let spec = format!(r#"{{"scene": "small.json", "zip": true, "set": {{{set}}}, "measure": ["hash"]}}"#);
+    let run = scratch(&spec).run(&["sweep", "plan", "spec.json", "out"]);
+    assert_eq!(run.code, Some(3));
+    let message = "must be shorter: all ranges together have at most 4000000 values";
+    assert!(run.stderr.contains("sphere.4.radius") && run.stderr.contains(message), "{}", run.stderr);
+}
+
 /// The text of the first block of `docs/cluster.md` that starts with `start`.
 fn block(start: &str) -> String {
     let page = fs::read_to_string(crate::repository::path("docs/cluster.md")).unwrap();

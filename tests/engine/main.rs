@@ -8,6 +8,9 @@
 
 mod cloth;
 mod contact;
+mod corpora;
+#[path = "../support/corpus.rs"]
+mod corpus;
 mod dependencies;
 mod gl;
 mod integrators;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// The folders of the repository in which a page may name a file.
-const FOLDERS: [&str; 12] = [
+const FOLDERS: [&str; 13] = [
     "src/",
     "lab/",
     "cli/",
@@ -12,6 +12,7 @@ const FOLDERS: [&str; 12] = [
     "docs/",
     "examples/",
     "benches/",
+    "fuzz/",
     "golden/",
     "scenes/",
     "textures/",

@@ -7,6 +7,9 @@
 )]
 
 mod choose;
+mod corpora;
+#[path = "../support/corpus.rs"]
+mod corpus;
 mod findings;
 mod grader;
 mod horizon;

@@ -1,6 +1,5 @@
 //! Files that belong to results, such as pictures: they stand beside them, and the result has the hash of their bytes.
 
-
 use serde::{Deserialize, Serialize};
 
 use super::{Address, Entry, Store, checksum};

@@ -36,12 +36,15 @@ impl Source {
         (line, column)
     }
 
-    /// The whole lines that hold `start..end`, without the last line's end: their offset and text.
+    /// The whole lines that hold `start..end`, without the last line's end but where the span reaches into it: their
+    /// offset and text.
     pub(crate) fn lines_around(&self, start: usize, end: usize) -> (usize, &str) {
         let from = self.text.get(..start).and_then(|t| t.rfind('\n')).map_or(0, |i| i + 1);
         let rest = self.text.get(end..).unwrap_or("");
         let to = end + rest.find('\n').unwrap_or(rest.len());
-        (from, self.text.get(from..to).unwrap_or("").trim_end_matches('\r'))
+        let text = self.text.get(from..to).unwrap_or("");
+        let length = text.trim_end_matches('\r').len().max(end - from);
+        (from, text.get(..length).unwrap_or(text))
     }
 
     /// The text of a span, cut off where its first line ends.
@@ -71,5 +74,8 @@ mod tests {
         assert_eq!(source.lines_around(4, 5), (4, "cd"));
         assert_eq!(source.lines_around(1, 5), (0, "ab\r\ncd"));
         assert_eq!(source.lines_around(10, 10), (8, "ef"));
+        let source = Source { name: String::new(), text: "{\r\r\r".into() };
+        assert_eq!(source.lines_around(0, 1), (0, "{"));
+        assert_eq!(source.lines_around(4, 4), (0, "{\r\r\r"), "an error at the end of the file stands there");
     }
 }

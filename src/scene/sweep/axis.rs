@@ -14,6 +14,9 @@ use crate::math::{exp, ln};
 /// Most values of a range.
 const MOST: u32 = 1_000_000;
 
+/// Most values of all ranges of a sweep together: a short file can ask for more than fit into memory.
+pub(super) const MOST_IN_ALL: u32 = 4 * MOST;
+
 /// A key of the scene and the values that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -39,8 +42,8 @@ choices! {
 pub(super) const WORDS: &str = "a list of values, or a range {\"from\", \"to\", \"count\", \"scale\"}";
 
 impl Axis {
-    /// Reads the values of the key at `path`.
-    pub(super) fn read(path: &str, at: &mut At) -> Option<Self> {
+    /// Reads the values of the key at `path`. A range takes from the values that are `left` for all ranges.
+    pub(super) fn read(path: &str, at: &mut At, left: &mut u32) -> Option<Self> {
         let path = path.to_owned();
         match &at.node.json {
             Json::List(items) if items.is_empty() => {
@@ -51,7 +54,7 @@ impl Axis {
                 Some(Self { path, values, scale: Scale::Linear })
             }
             Json::Object(_) => {
-                let (values, scale) = read_range(at)?;
+                let (values, scale) = read_range(at, left)?;
                 Some(Self { path, values, scale })
             }
             _ => at.wrong_type(WORDS),
@@ -60,7 +63,7 @@ impl Axis {
 }
 
 /// The values of a range and its scale.
-fn read_range(at: &mut At) -> Option<(Vec<Value>, Scale)> {
+fn read_range(at: &mut At, left: &mut u32) -> Option<(Vec<Value>, Scale)> {
     let members = at.node.members()?;
     for member in members {
         if !["from", "to", "count", "scale"].contains(&member.key.as_str()) {
@@ -83,6 +86,11 @@ fn read_range(at: &mut At) -> Option<(Vec<Value>, Scale)> {
     if scale == Scale::Log && (from < SMALLEST || to < SMALLEST) {
         return at.not_allowed("sweep::log_of_zero", "a range above 0 where `scale` is \"log\"", "");
     }
+    let Some(rest) = left.checked_sub(count) else {
+        let words = format!("shorter: all ranges together have at most {MOST_IN_ALL} values");
+        return at.not_allowed("sweep::too_many_values", &words, "give fewer values");
+    };
+    *left = rest;
     Some((spaced([from, to], count, scale).into_iter().map(number).collect(), scale))
 }
 

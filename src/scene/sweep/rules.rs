@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::super::json::finding::Finding;
+use super::super::json::key::Key;
 use super::super::json::node::{Json, Member};
 use super::super::json::rule::{At, Rule};
 use super::super::json::suggest::did_you_mean;
@@ -91,12 +92,13 @@ impl Rule for Changes {
 
     fn read(&self, at: &mut At) -> Option<Vec<Axis>> {
         let Some(members) = at.node.members() else { return at.wrong_type(&self.words()) };
+        let (paths, mut left) = (paths(), axis::MOST_IN_ALL);
         let mut axes = Vec::new();
         for member in members {
-            let known = check_path(at, member, &member.key);
+            let known = check_path(at, member, &member.key, &paths);
             let key = format!("{}.{}", at.key, member.key);
             let mut inside = At { diagnostics: at.diagnostics, key: &key, node: &member.value };
-            axes.push(Axis::read(&member.key, &mut inside).filter(|_| known));
+            axes.push(Axis::read(&member.key, &mut inside, &mut left).filter(|_| known));
         }
         axes.into_iter().collect()
     }
@@ -126,7 +128,9 @@ impl Rule for Material {
 
     fn read(&self, at: &mut At) -> Option<Self::Value> {
         let Some(members) = at.node.members() else { return at.wrong_type(&self.words()) };
-        let known = members.iter().map(|member| check_path(at, member, &format!("material.{}", member.key)));
+        let paths = paths();
+        let known =
+            members.iter().map(|member| check_path(at, member, &format!("material.{}", member.key), &paths));
         let known: Vec<bool> = known.collect();
         let values = members.iter().map(|member| (member.key.clone(), member.value.plain()));
         known.iter().all(|&known| known).then(|| values.collect())
@@ -145,14 +149,20 @@ impl Rule for Material {
     }
 }
 
-/// Whether `path` is a key of scenes; reports one that is not, at the key of `member`.
-fn check_path(at: &mut At, member: &Member, path: &str) -> bool {
+/// The path of every key of scenes.
+fn paths() -> Vec<String> {
+    keys().iter().map(Key::path).collect()
+}
+
+/// Whether `path` is one of the `paths` of scenes; reports one that is not, at the key of `member`.
+fn check_path(at: &mut At, member: &Member, path: &str, paths: &[String]) -> bool {
     let names: Vec<&str> = path.split('.').filter(|step| step.parse::<usize>().is_err()).collect();
-    let (name, known) = (names.join("."), keys());
-    if known.iter().any(|key| key.path() == name) {
-        return true;
+    let name = names.join(".");
+    let known = paths.contains(&name);
+    // Looking for a similar name takes time.
+    if known || at.diagnostics.is_full() {
+        return known;
     }
-    let paths: Vec<String> = known.iter().map(|key| key.path()).collect();
     let help = did_you_mean(&name, paths.iter().map(String::as_str))
         .unwrap_or_else(|| "`drape schema` lists every key".into());
     let finding = Finding::new("sweep::unknown_key", format!("there is no key `{path}` in a scene"))

@@ -4,7 +4,7 @@
 //! The last eight bytes are the hash of all bytes before them, little-endian.
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{Seen, Snapshot};
 use crate::cloth::{Counters, Points};
@@ -14,6 +14,9 @@ use crate::math::StateHash;
 
 /// The number of this format.
 const FORMAT: u32 = 1;
+
+/// Most steps, or of anything else that is counted: more than a run ever has, and less than what overflows.
+const MOST: u64 = 1 << 62;
 
 /// Bytes of the checksum.
 const CHECKSUM: usize = 8;
@@ -30,11 +33,25 @@ struct Header {
     points: usize,
     arrays: usize,
     counters: Counters,
-    /// The entries of the ledger, in J.
-    ledger: Option<Vec<f64>>,
+    /// The entries of the ledger, in J: numbers, or text where they are infinite or NaN.
+    ledger: Option<Vec<Value>>,
     #[serde(default, skip_serializing_if = "Seen::is_nothing")]
     seen: Seen,
     scene: Vec<(String, Value)>,
+}
+
+impl Header {
+    /// Whether the numbers are those of a run, and agree with each other.
+    fn is_possible(&self) -> bool {
+        let counts = json!(self.counters);
+        let mut counted = counts.as_object().into_iter().flat_map(|counts| counts.values());
+        let of_scene = self.scene.iter().find(|(path, _)| path == "sim.steps_per_frame");
+        self.steps <= MOST
+            && counted.all(|count| count.as_u64().is_some_and(|count| count <= MOST))
+            && self.steps.checked_div(self.steps_per_frame) == Some(self.frame)
+            && of_scene.and_then(|(_, value)| value.as_u64()) == Some(self.steps_per_frame)
+            && (self.points == 0) == (self.arrays == 0)
+    }
 }
 
 impl Snapshot {
@@ -49,7 +66,7 @@ impl Snapshot {
             points: self.arrays.first().map_or(0, Points::len),
             arrays: self.arrays.len(),
             counters: self.counters,
-            ledger: self.ledger.map(|ledger| ledger.entries().map(|(_, entry)| entry).collect()),
+            ledger: self.ledger.map(|ledger| ledger.entries().map(|(_, joules)| entry(joules)).collect()),
             seen: self.seen,
             scene: self.scene.clone(),
         };
@@ -80,11 +97,11 @@ impl Snapshot {
             return Err(damaged());
         }
         let header: Header = serde_json::from_slice(line).map_err(|_| damaged())?;
-        let arrays = points(arrays.get(1..).unwrap_or_default(), header.points, header.arrays);
-        let ledger = header.ledger.map(|entries| Ledger::from_entries(&entries).ok_or_else(damaged));
-        if header.steps_per_frame == 0 {
+        if !header.is_possible() {
             return Err(damaged());
         }
+        let arrays = points(arrays.get(1..).unwrap_or_default(), header.points, header.arrays);
+        let ledger = header.ledger.as_ref().map(|entries| ledger(entries).ok_or_else(damaged));
         Ok(Self {
             version: header.version,
             scene: header.scene,
@@ -96,6 +113,17 @@ impl Snapshot {
             arrays: arrays.ok_or_else(damaged)?,
         })
     }
+}
+
+/// An entry of the ledger. JSON has no numbers for what is infinite or NaN.
+fn entry(joules: f64) -> Value {
+    if joules.is_finite() { json!(joules) } else { json!(joules.to_string()) }
+}
+
+/// The ledger of so many entries.
+fn ledger(entries: &[Value]) -> Option<Ledger> {
+    let number = |entry: &Value| entry.as_f64().or_else(|| entry.as_str()?.parse().ok());
+    Ledger::from_entries(&entries.iter().map(number).collect::<Option<Vec<f64>>>()?)
 }
 
 /// What the line of every format says.

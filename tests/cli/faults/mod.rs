@@ -32,7 +32,7 @@ struct Fault {
 }
 
 /// What the tests need of the package.
-const PARTS: [&str; 14] = [
+const PARTS: [&str; 16] = [
     "Cargo.toml",
     "Cargo.lock",
     "README.md",
@@ -47,6 +47,8 @@ const PARTS: [&str; 14] = [
     "textures",
     "docs",
     "golden",
+    "fuzz/bodies",
+    "fuzz/corpus",
 ];
 
 fn package() -> PathBuf {
