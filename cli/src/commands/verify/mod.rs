@@ -13,7 +13,7 @@ use serde_json::{Map, Value};
 
 use crate::args::render::{springs, texture_hash};
 use crate::args::state;
-use crate::run::start::start;
+use crate::run::start::{renderer, start};
 use crate::session::Session;
 use again::{Again, Moments};
 use drape::error::{Error, Kind, Result};
@@ -74,7 +74,7 @@ fn verify(args: &Args, file: &File, report: &mut Report, session: &Session) -> R
     }
     let Some(scene) = args.scene(said, report, session)? else { return Ok(()) };
     let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
-    let renderer = Renderer::new(&scene, &source)?;
+    let renderer = renderer(&scene, &source, session)?;
     check_textures(said, &scene, &renderer, report);
     if !report.is_equal() {
         return Ok(());
