@@ -161,6 +161,7 @@ fn simulations(shots: &[Shot]) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drape::output::provenance::Provenance;
     use drape::render::Options;
     use drape::scene::{Overrides, load_stock};
     use std::path::Path;
@@ -169,7 +170,8 @@ mod tests {
         let sets = sets.iter().map(ToString::to_string).collect();
         let overrides = Overrides { sets, ..Overrides::default() };
         let scene = load_stock(Path::new(scene), &overrides).unwrap().scene;
-        Shot { scene, options: Options::default(), frame, allow_unstable: false }
+        let (options, provenance) = (Options::default(), Provenance::default());
+        Shot { scene, options, frame, allow_unstable: false, provenance }
     }
 
     #[test]

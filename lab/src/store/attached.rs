@@ -61,6 +61,7 @@ impl Store {
 mod tests {
     use super::*;
     use crate::store::{WriteFile, key};
+    use std::fs;
 
     #[test]
     fn a_file_is_a_result_while_its_bytes_are_those_that_were_written() {
