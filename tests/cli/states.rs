@@ -62,6 +62,13 @@ fn every_command_goes_on_from_a_state() {
         scratch.succeed(&[&["simulate", "small.json", "--frames", &last], &damped[..]].concat());
         assert_eq!(rest(&["--from-state", "m"]), whole, "from {before} frames before the end");
     }
+    // A picture is not watched for rest: its state does not know what the state that it came from knew.
+    let [before, frame] = [frames - 5, frames].map(|frame| frame.to_string());
+    let render = ["render", "small.json", "p.png", "--frame", &frame, "--set", "cloth.damping=5", "-q"];
+    scratch.succeed(&[&render[..], &["--save-state", "far"]].concat());
+    scratch.succeed(&[&["simulate", "small.json", "--frames", &before], &damped[..]].concat());
+    scratch.succeed(&[&render[..], &["--from-state", "m", "--save-state", "near"]].concat());
+    assert!(scratch.read("far") == scratch.read("near"));
 }
 
 #[test]

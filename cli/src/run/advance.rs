@@ -83,10 +83,11 @@ pub(crate) fn advance_until(
 ) -> Result<Ended> {
     let Some(cloth) = scene.cloth.as_ref().filter(|_| until.rest || until.watched) else {
         let last = if until.rest { 0 } else { until.frames };
-        let elapsed = advance_while(simulation, last, session, |simulation| {
-            each(simulation, until.seen).map(|()| true)
-        })?;
-        return Ok(Ended { elapsed, rest: None, unsettled: None, seen: until.seen });
+        // What was seen before does not hold for frames that nobody watches.
+        let seen = Seen::default();
+        let each = |simulation: &Simulation| each(simulation, seen).map(|()| true);
+        let elapsed = advance_while(simulation, last, session, each)?;
+        return Ok(Ended { elapsed, rest: None, unsettled: None, seen });
     };
     let first = simulation.frame();
     let now = simulation.positions();
