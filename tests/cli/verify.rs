@@ -347,6 +347,16 @@ fn nothing_of_the_machine_is_in_a_file_unless_it_is_asked_for() {
 }
 
 #[test]
+fn a_file_that_has_no_place_for_it_is_named() {
+    let scratch = Scratch::new();
+    for (out, warned) in [("a.obj", true), ("a.ply", true), ("a.glb", false)] {
+        let run = scratch.run(&["export", "small.json", out, "--frame", "1", "--provenance", "hashes"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert_eq!(run.stderr.contains("--provenance has no effect"), warned, "{out}: {}", run.stderr);
+    }
+}
+
+#[test]
 fn a_picture_without_its_scene_needs_the_file() {
     let scratch = drawn(&["--provenance", "hashes", "--set", "cloth.ks=700"]);
     let run = scratch.run(&["verify", "a.png"]);

@@ -21,6 +21,7 @@ pub(crate) const APNG: Format = Format {
     ending: "apng",
     note: "an animated PNG, lossless",
     max_fps: MAX_FPS,
+    says: true,
     check: |_, _| Ok(()),
     create: |path, playback, pictures, provenance| {
         Ok(Box::new(Apng::create(path, playback, pictures, provenance)?))

@@ -16,6 +16,8 @@ pub(crate) struct Format {
     pub(crate) note: &'static str,
     /// Most pictures per second.
     pub(crate) max_fps: u16,
+    /// Whether a file has a place for what it says of itself.
+    pub(crate) says: bool,
     /// Checks, before long work, that a file at this path can be encoded.
     pub(crate) check: fn(&Path, Playback) -> Result<()>,
     /// Starts a file.

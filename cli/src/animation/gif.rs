@@ -31,6 +31,7 @@ pub(crate) const GIF: Format = Format {
     ending: "gif",
     note: "at most 256 colours in a picture and 50 pictures per second",
     max_fps: MAX_FPS,
+    says: true,
     check: |_, _| Ok(()),
     create: |path, playback, _, provenance| Ok(Box::new(Gif::create(path, playback, &provenance)?)),
 };

@@ -17,6 +17,7 @@ pub(crate) const MP4: Format = Format {
     ending: "mp4",
     note: "H.264, encoded by the program ffmpeg, which must be installed",
     max_fps: MAX_FPS,
+    says: false,
     check: find_ffmpeg,
     create: |path, playback, _, _| Ok(Box::new(Mp4::create(path, playback)?)),
 };

@@ -66,6 +66,14 @@ impl Target {
         }
     }
 
+    /// Whether its files have a place for what they say of themselves.
+    pub(crate) fn says(&self) -> bool {
+        match self {
+            Self::Sequence(_) => true,
+            Self::File(_, format) => format.says,
+        }
+    }
+
     /// The pictures per second: those asked for, or every simulated frame as far as the format can.
     ///
     /// # Errors

@@ -1,7 +1,10 @@
 //! The argument for what a file says of itself.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 
+use crate::session::ui::Ui;
 use drape::output::provenance::{Arguments, Provenance};
 use drape::scene::Loaded;
 
@@ -19,15 +22,23 @@ pub(crate) enum Detail {
 /// What a file says of itself.
 #[derive(clap::Args)]
 pub(crate) struct ProvenanceArgs {
-    /// What the file says of itself, for `drape verify`
-    #[arg(long, value_name = "WHAT", default_value = "scene")]
-    provenance: Detail,
+    /// What the file says of itself, for `drape verify` (default: scene)
+    #[arg(long, value_name = "WHAT")]
+    provenance: Option<Detail>,
 }
 
 impl ProvenanceArgs {
     /// What a file of the scene in `loaded` says of itself; `arguments` is what is shown of it.
     pub(crate) fn of(&self, loaded: &Loaded, arguments: Arguments) -> Provenance {
-        self.provenance.of(loaded, arguments)
+        self.provenance.unwrap_or(Detail::Scene).of(loaded, arguments)
+    }
+
+    /// Warns that the option has no effect, if it is given and `path` has no place for what a file says.
+    pub(crate) fn caution(&self, path: &Path, has_place: bool, ui: &Ui) {
+        if self.provenance.is_some() && !has_place {
+            let message = format!("--provenance has no effect: `{}` has no place for it", path.display());
+            ui.caution(&message, "PNG, animated PNG, GIF and .glb files have one");
+        }
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
     #[command(flatten)]
-    provenance: ProvenanceArgs,
+    pub(crate) provenance: ProvenanceArgs,
 }
 
 /// Warns of `pictures` that show only the background.

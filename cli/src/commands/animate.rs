@@ -79,6 +79,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let schedule = args.schedule(scene, playback.fps)?;
     args.check_outputs(scene, &target, &schedule)?;
     target.check(playback)?;
+    args.render.provenance.caution(&args.out, target.says(), &session.ui);
     // All inputs are read before anything is simulated.
     let renderer = renderer(scene, &args.render.textures(), session)?;
     args.render.caution(scene, &renderer, &session.ui);

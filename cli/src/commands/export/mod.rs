@@ -79,6 +79,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let (frames, until) = args.frames(scene)?;
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
+    args.provenance.caution(&args.mesh, format == Format::Glb, &session.ui);
     let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
     writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
