@@ -97,9 +97,12 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
 /// Removes the temporary files in `folder` that no process has locked, once in each folder.
 fn remove_of_dead_processes(folder: &Path) {
     static DONE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    if !locked(&DONE).insert(folder.to_owned()) {
-        return;
+    if locked(&DONE).insert(folder.to_owned()) {
+        clean(folder);
     }
+}
+
+fn clean(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if is_temporary(&entry.file_name().to_string_lossy())
@@ -137,7 +140,7 @@ mod tests {
             fs::write(at(name), "x").unwrap();
         }
         fs::create_dir(at(".drape-folder")).unwrap();
-        remove_of_dead_processes(&dir.path().join("."));
+        clean(dir.path());
         let there = |name: &str| at(name).exists();
         assert!(used.path().exists() && !there(".drape-dead00"));
         assert!([".drape-settings", ".drape-a.json", "drape-kept01", ".drape-folder"].into_iter().all(there));
