@@ -40,21 +40,41 @@ async function copy(text, button) {
   setTimeout(() => { button.textContent = label; }, 1500);
 }
 
+const FACES = ['posx', 'negx', 'posy', 'negy', 'posz', 'negz'];
+const faces = new Map(); // of the cube map that is being dropped, by name
+
+/// Takes a face of a cube map. The six may come together or one after the other; with the last one, all are used.
+function takeFace(name, bytes) {
+  faces.set(name, bytes);
+  const missing = FACES.filter((face) => !faces.has(face));
+  const told = missing.length ? `${6 - missing.length} of 6 faces of a cube map; still missing: ${missing.join(', ')}` : '';
+  element('faces').textContent = told;
+  if (missing.length) return false;
+  for (const [face, picture] of faces) setTexture(`cube/${face}`, picture);
+  return true;
+}
+
+function setTexture(name, bytes) {
+  textures.set(name, bytes);
+  worker?.postMessage({ type: 'texture', name, bytes });
+}
+
 /// Opens files of the user's own: pictures are textures, anything else is a scene.
 async function openFiles(files) {
   const pictures = files.filter((file) => /\.(png|jpe?g)$/i.test(file.name));
   const scene = files.find((file) => !pictures.includes(file));
   const stem = (file) => file.name.replace(/\.[^.]*$/, '');
-  const faces = ['posx', 'negx', 'posy', 'negy', 'posz', 'negz'];
-  const isCube = faces.every((face) => pictures.some((file) => stem(file) === face));
+  let isCube = false;
   let last = null;
   for (const file of pictures) {
-    const face = isCube && faces.includes(stem(file));
-    const name = face ? `cube/${stem(file)}` : stem(file);
+    const name = stem(file);
     const bytes = new Uint8Array(await file.arrayBuffer());
-    textures.set(name, bytes);
-    worker?.postMessage({ type: 'texture', name, bytes });
-    if (!face) last = name;
+    if (FACES.includes(name)) {
+      isCube = takeFace(name, bytes);
+    } else {
+      setTexture(name, bytes);
+      last = name;
+    }
   }
   if (scene) {
     const bytes = new Uint8Array(await scene.arrayBuffer());

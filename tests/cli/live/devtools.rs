@@ -188,6 +188,20 @@ impl DevTools {
         self.call("Input.dispatchMouseEvent", &event);
     }
 
+    /// Moves fingers over the element that a selector finds, each from one place to another in parts of the element.
+    pub(super) fn touch(&mut self, selector: &str, fingers: &[[[f64; 2]; 2]]) {
+        self.call("Emulation.setTouchEmulationEnabled", &json!({"enabled": true, "maxTouchPoints": 5}));
+        for (kind, part) in [("touchStart", 0.0), ("touchMove", 0.5), ("touchMove", 1.0)] {
+            let mut points = Vec::new();
+            for (id, [from, to]) in fingers.iter().enumerate() {
+                let [x, y] = self.place(selector, [0, 1].map(|i| from[i] + part * (to[i] - from[i])));
+                points.push(json!({"x": x, "y": y, "id": id}));
+            }
+            self.call("Input.dispatchTouchEvent", &json!({"type": kind, "touchPoints": points}));
+        }
+        self.call("Input.dispatchTouchEvent", &json!({"type": "touchEnd", "touchPoints": []}));
+    }
+
     /// Clicks in the middle of the element with an id.
     pub(super) fn click(&mut self, id: &str) {
         self.drag("left", &format!("#{id}"), [0.5, 0.5], [0.5, 0.5]);

@@ -48,15 +48,17 @@ fn next_picture(tools: &mut DevTools, before: &str) -> String {
     tools.text("picture-hash")
 }
 
+/// Distance, target, polar angle and azimuth of the camera.
+fn camera(tools: &mut DevTools) -> Vec<f64> {
+    let found = tools.eval("[camera.distance, ...camera.target, camera.polar, camera.azimuth]");
+    found.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
 #[test]
 fn wheel_and_buttons_of_the_mouse_move_the_camera() {
     let Some(mut tools) = opened(PAUSED, 1400, false) else { return };
     settle(&mut tools);
     let (state, before) = (tools.text("state-hash"), tools.text("picture-hash"));
-    let camera = |tools: &mut DevTools| {
-        let found = tools.eval("[camera.distance, ...camera.target, camera.polar, camera.azimuth]");
-        found.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<f64>>()
-    };
     let first = camera(&mut tools);
     // The wheel towards the hand zooms out, and nothing else.
     tools.wheel("#view", 100.0);
@@ -72,6 +74,34 @@ fn wheel_and_buttons_of_the_mouse_move_the_camera() {
     let shape = tools.eval("(({clientWidth: w, clientHeight: h}) => w / h)(document.getElementById('view'))");
     let expected = 0.1 * shape.as_f64().unwrap() * 2.0 * zoomed[0] * math::tan(17.5_f64.to_radians());
     assert!((zoomed[1] - moved[1] - expected).abs() < 0.02 * expected, "{zoomed:?} {moved:?} {expected}");
+    assert_eq!(tools.text("state-hash"), state, "the cloth does not move");
+    check_command(&mut tools, &Scratch::new());
+    assert_eq!(tools.console, Vec::<String>::new());
+}
+
+#[test]
+fn fingers_turn_move_and_zoom() {
+    let Some(mut tools) = opened(PAUSED, 390, false) else { return };
+    settle(&mut tools);
+    let (state, mut picture) = (tools.text("state-hash"), tools.text("picture-hash"));
+    let first = camera(&mut tools);
+    // One finger turns: what is seen follows it.
+    tools.touch("#view", &[[[0.4, 0.5], [0.6, 0.5]]]);
+    picture = next_picture(&mut tools, &picture);
+    let turned = camera(&mut tools);
+    assert_eq!(turned[..5], first[..5]);
+    assert!(turned[5] < first[5], "{first:?} {turned:?}");
+    // Two fingers that part to twice their distance bring the camera to half of its.
+    tools.touch("#view", &[[[0.4, 0.5], [0.3, 0.5]], [[0.6, 0.5], [0.7, 0.5]]]);
+    picture = next_picture(&mut tools, &picture);
+    let zoomed = camera(&mut tools);
+    assert!((zoomed[0] / turned[0] - 0.5).abs() < 0.02, "{turned:?} {zoomed:?}");
+    assert_eq!(zoomed[4..], turned[4..], "it does not turn");
+    // Two fingers that move together move the target.
+    tools.touch("#view", &[[[0.4, 0.4], [0.4, 0.6]], [[0.6, 0.4], [0.6, 0.6]]]);
+    next_picture(&mut tools, &picture);
+    let moved = camera(&mut tools);
+    assert!((moved[0] / zoomed[0] - 1.0).abs() < 0.02 && moved[2] > zoomed[2], "{zoomed:?} {moved:?}");
     assert_eq!(tools.text("state-hash"), state, "the cloth does not move");
     check_command(&mut tools, &Scratch::new());
     assert_eq!(tools.console, Vec::<String>::new());
