@@ -1,7 +1,10 @@
 //! Runs that are killed at random moments go on from their checkpoints, and leave the bytes of a run that never stopped.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::time::Duration;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 use drape::math::splitmix64;
 
@@ -31,12 +34,11 @@ fn killed(scratch: &Scratch, words: &[&str]) -> (String, u64) {
     }
 }
 
-/// The names and the bytes of the files in a folder, without those that were being written when a run was killed.
+/// The names and the bytes of the files in a folder. What was being written when a run was killed, the next has removed.
 fn files(scratch: &Scratch, folder: &str) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(scratch.path(folder)).unwrap().map(|entry| entry.unwrap());
     let mut files: Vec<_> = entries
         .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
-        .filter(|(name, _)| !name.starts_with(".drape-"))
         .collect();
     files.sort();
     files
@@ -95,4 +97,112 @@ fn a_picture_and_a_mesh_of_a_run_that_is_killed_are_the_same() {
 fn an_animation_that_is_killed_goes_on_behind_the_pictures_that_are_there() {
     let size = ["--size", "640x480", "--samples", "16", "--shader", "phong"];
     check(&[&["animate", "small.json", "OUT/%04d.png", "--frames", "0..40"], &size[..]].concat());
+}
+
+/// Commands that write into the folder `out`, on which they go on.
+const LONG: [&str; 8] = [
+    "animate small.json out/%04d.png --frames 0..60 --size 320x240",
+    "animate small.json out/a.apng --frames 0..60 --size 320x240",
+    "animate small.json out/a.gif --frames 0..60 --size 320x240 --fps 50",
+    "simulate small.json --frames 200 --positions out/%04d.npy",
+    "export small.json out/a.glb --frames 0..90",
+    "sweep run spec.json out",
+    "stability small.json out --quick --part 1/200",
+    "gallery out --only part1",
+];
+
+/// All files below a folder, by their path within it.
+fn tree(top: &Path) -> BTreeMap<String, Vec<u8>> {
+    let (mut found, mut folders) = (BTreeMap::new(), vec![top.to_owned()]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.insert(path.strip_prefix(top).unwrap().display().to_string(), fs::read(path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// A folder in which each of [`LONG`] can run.
+fn prepared() -> Scratch {
+    let scratch = Scratch::new();
+    let spec = r#"{"scene": "small.json", "set": {"cloth.ks": {"from": 100, "to": 200, "count": 60}}, "frames": 5,
+        "measure": ["hash"], "render": {"size": [32, 24]}}"#;
+    fs::write(scratch.path("spec.json"), spec).unwrap();
+    fs::create_dir(scratch.path("out")).unwrap();
+    scratch
+}
+
+/// Whether a file may be there or not: one that was being written, and a worker's note of what it has begun.
+fn is_passing(name: &str) -> bool {
+    name.contains(".drape-") || name.starts_with("cells/claims/") || name.starts_with("claims/")
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn two_hundred_kills_tear_no_file() {
+    let mut kills = 0;
+    for (number, arguments) in LONG.into_iter().enumerate() {
+        let words: Vec<&str> = arguments.split(' ').chain(["-q"]).collect();
+        let started = Instant::now();
+        let whole = prepared();
+        whole.succeed(&words);
+        let longest = started.elapsed().as_millis().max(20) as u64;
+        let right = tree(&whole.path("out"));
+        let scratch = prepared();
+        for round in 0..25 {
+            let mut run =
+                scratch.command(&words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+            let moment = splitmix64(1000 * number as u64 + round) % longest;
+            std::thread::sleep(Duration::from_millis(moment));
+            run.kill().unwrap();
+            kills += u64::from(run.wait().unwrap().code().is_none());
+            for (name, bytes) in tree(&scratch.path("out")) {
+                let known = is_passing(&name) || right.get(&name) == Some(&bytes);
+                assert!(known, "{arguments}: {name} after {moment} ms");
+            }
+            // From time to time all begins anew.
+            if round % 5 == 4 {
+                scratch.succeed(&words);
+                let mut done = tree(&scratch.path("out"));
+                done.retain(|name, _| !name.contains("claims/"));
+                let mut expected = right.clone();
+                expected.retain(|name, _| !name.contains("claims/"));
+                assert_eq!(
+                    done.keys().collect::<Vec<_>>(),
+                    expected.keys().collect::<Vec<_>>(),
+                    "{arguments}"
+                );
+                assert!(done == expected, "{arguments}: other bytes");
+                fs::remove_dir_all(scratch.path("out")).unwrap();
+                fs::create_dir(scratch.path("out")).unwrap();
+            }
+        }
+    }
+    println!("{kills} runs were killed");
+    assert!(kills > 100, "{kills}");
+}
+
+#[test]
+fn two_runs_on_one_file_leave_the_file_of_one_of_them() {
+    let scratch = Scratch::new();
+    let words =
+        |frame: &'static str| ["render", "small.json", "a.png", "--size", "64x48", "-q", "--frame", frame];
+    let right = ["3", "4"].map(|frame| {
+        scratch.succeed(&words(frame));
+        scratch.read("a.png")
+    });
+    assert_ne!(right[0], right[1]);
+    for _ in 0..20 {
+        let runs = ["3", "4"].map(|frame| scratch.command(&words(frame)).spawn().unwrap());
+        for mut run in runs {
+            assert_eq!(run.wait().unwrap().code(), Some(0));
+        }
+        assert!(right.contains(&scratch.read("a.png")));
+        assert_eq!(scratch.names(), ["a.png", "small.json"]);
+    }
 }
