@@ -15,9 +15,11 @@
 //!   it stretches to `2 thickness`. Pushes add up while l grows, and then give back what brought the
 //!   points together; but where neighbours start too close, nothing did: for each such point
 //!   `m (2 thickness - l)² / (2 T dt²)`;
-//! - rounding. It moves each end of a spring by up to 2⁻⁵³ of its place, in binary32 2⁻²⁴; and in binary64 each point
-//!   once a step, by a speed of that over dt, which in a million steps that do not depend on each other adds up to a
-//!   thousand times as much. Only a cloth that nothing else moves can have so little energy.
+//! - rounding. It moves each end of a spring by up to 2⁻⁵³ of its place, in binary32 2⁻²⁴; and each point once a step,
+//!   by a speed of that over dt, which in a million steps that do not depend on each other adds up to a thousand times
+//!   as much. In binary32 positions do not round velocities, but the stretch limit moves what is rounded beyond it.
+//!   Only a cloth that nothing else moves can have so little energy. Of a cloth that is so far away that rounding moves
+//!   a point by more than a thousandth of L nothing is left, and no more is allowed for.
 //!
 //! Objects have none: contact only takes energy. So a run in which the speed that `report` and `outside` give to a point
 //! when they put it on a surface adds up to more than the rest of the bound ends in an error, too. Under `coulomb`
@@ -49,6 +51,9 @@ pub(crate) const RANGE: f64 = 1e15;
 /// The part of the largest energy that rounding may add.
 const ROUNDING: f64 = 1e-9;
 
+/// The part of the cloth's longer side by which rounding may move a point.
+const RESOLVED: f64 = 1e-3;
+
 /// How many steps of rounding are allowed for.
 const MOST_STEPS: f64 = 1e6;
 
@@ -68,6 +73,8 @@ pub(crate) struct Allowance {
     rounding: f64,
     /// What rounding moves a point by, as a part of its place.
     unit: f64,
+    /// The most that it may move a point by, in metres.
+    most_rounded: f64,
 }
 
 impl Allowance {
@@ -81,18 +88,18 @@ impl Allowance {
             _ if coulomb => 0.0,
             _ => 2.0 * cloth.thickness,
         };
-        let mut fixed = all * g * (0.5 * cloth.width.max(cloth.height) + g * dt * dt);
+        let side = cloth.width.max(cloth.height);
+        let mut fixed = all * g * (0.5 * side + g * dt * dt);
         fixed += motion(all, distance / params.steps_per_frame / dt) + stretched_to(distance, springs);
         let bounds_exchange = !is_bounded_and_always_stable(cloth, &scene.sim);
-        let single = scene.sim.precision == Precision::F32;
         // A point owns six springs, and each may be longer by 2 √3 times the rounding of a coordinate.
-        let springs_of_point = 36.0 * cloth.ks;
-        let (rounding, unit) = if single {
-            (springs_of_point, 0.5 * f64::from(f32::EPSILON))
-        } else {
-            (springs_of_point + MOST_STEPS * motion(mass, 1.0 / dt), 0.5 * f64::EPSILON)
+        let rounding = 36.0 * cloth.ks + MOST_STEPS * motion(mass, 1.0 / dt);
+        let most_rounded = RESOLVED * side;
+        let unit = match scene.sim.precision {
+            Precision::F64 => 0.5 * f64::EPSILON,
+            Precision::F32 => 0.5 * f64::from(f32::EPSILON),
         };
-        Self { fixed, grid: springs.grid, distance, bounds_exchange, coulomb, rounding, unit }
+        Self { fixed, grid: springs.grid, distance, bounds_exchange, coulomb, rounding, unit, most_rounded }
     }
 
     /// The bound of a cloth that starts at `x` with `energy`.
@@ -102,7 +109,7 @@ impl Allowance {
         for p in 0..x.len() {
             let depth = (self.distance - nearest_neighbor(self.grid, x, p)).max(0.0);
             allowance += motion(params.mass, depth / (dt * steps_per_frame.sqrt()));
-            let rounded = self.unit * x.get(p).amax();
+            let rounded = (self.unit * x.get(p).amax()).min(self.most_rounded);
             allowance += self.rounding * rounded * rounded;
         }
         let Self { bounds_exchange, coulomb, .. } = *self;

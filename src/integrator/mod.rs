@@ -92,10 +92,24 @@ pub(crate) trait Integrator: BoxedClone + Debug + Send + Sync {
     /// Discards what it remembers of point `p`, which goes on with the velocity `(x - last) / dt`.
     fn forget(&mut self, _p: usize) {}
 
+    /// How the motion of points is rounded.
+    fn resolution(&self) -> Resolution {
+        Resolution { unit: f64::EPSILON, keeps_velocity: false }
+    }
+
     /// Whether the energy of the springs counts against the energy bound.
     fn bounds_spring_energy(&self) -> bool {
         true
     }
+}
+
+/// How the motion of points is rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Resolution {
+    /// Distance of a position to the next number, as a part of it.
+    pub(crate) unit: f64,
+    /// Whether velocities are kept apart from positions, and not rounded as their differences are.
+    pub(crate) keeps_velocity: bool,
 }
 
 /// The longest stable step, as the product of the step and the angular frequency of a vibration.

@@ -11,7 +11,7 @@
 //! `last` is not where the point was but `x - d`, which has digits enough to tell d.
 
 use super::damped_step::DampedStep;
-use super::{Integrator, StepBound, verlet};
+use super::{Integrator, Resolution, StepBound, verlet};
 use crate::cloth::forces::Forces;
 use crate::cloth::real::Real;
 use crate::cloth::springs::Springs;
@@ -70,6 +70,10 @@ impl Integrator for VerletF32 {
 
     fn decompose(&self, _p: usize, before: Vec3, moved: Vec3, params: &Params) -> [Vec3; 2] {
         self.step.decompose(before, moved, params)
+    }
+
+    fn resolution(&self) -> Resolution {
+        Resolution { unit: f64::from(f32::EPSILON), keeps_velocity: true }
     }
 
     fn bounds_spring_energy(&self) -> bool {

@@ -12,9 +12,11 @@ pub mod snapshot;
 mod state;
 mod step;
 mod timing;
+mod unresolved;
 mod variants;
 
 pub use timing::Timings;
+pub use unresolved::Unresolved;
 
 use blow_up::Replay;
 use ledger_recorder::LedgerRecorder;
@@ -22,7 +24,7 @@ use observers::Observers;
 use state::State;
 use timing::Timing;
 
-use crate::cloth::{Counters, Params, Points, chunks};
+use crate::cloth::{Counters, Points, chunks};
 use crate::diagnostics::energy::Energy;
 use crate::diagnostics::extremes::{Extremes, longest_spring};
 use crate::diagnostics::ledger::Ledger;
@@ -40,19 +42,6 @@ pub struct Simulation {
     observers: Observers,
     no_points: Points,
     guarded: bool,
-}
-
-/// A position that a step is too short for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unresolved {
-    /// Column and row of the point.
-    pub point: (usize, usize),
-    /// The coordinate: 0, 1 or 2.
-    pub axis: usize,
-    /// What gravity adds to the displacement in a step, in metres.
-    pub fall: f64,
-    /// Distance of two neighbouring numbers at the position, in metres.
-    pub rounding: f64,
 }
 
 impl Simulation {
@@ -140,22 +129,10 @@ impl Simulation {
         Err(Replay { cloth, ledger, steps, steps_per_frame: *steps_per_frame, guarded: *guarded }.error())
     }
 
-    /// The first free point whose position rounds away more than a hundredth of what gravity adds
-    /// to its displacement in a step, where `time` seconds of it would show.
+    /// The first position that loses what gravity does in `time` seconds to rounding
+    /// (see `src/simulation/unresolved.rs`).
     pub fn unresolved(&self, time: f64) -> Option<Unresolved> {
-        let cloth = self.cloth.as_ref()?;
-        let Params { weight, mass, dt, .. } = cloth.params;
-        for p in cloth.pins.free.iter().cloned().flatten() {
-            let point = cloth.grid.column_row(p);
-            for (axis, x) in cloth.x.get(p).iter().enumerate() {
-                let (g, rounding) = ((weight[axis] / mass).abs(), f64::EPSILON * x.abs());
-                let fall = g * dt * dt;
-                if g > 0.0 && 0.5 * rounding > 0.01 * fall && 0.5 * g * time * time > rounding {
-                    return Some(Unresolved { point, axis, fall, rounding });
-                }
-            }
-        }
-        None
+        self.cloth.as_ref()?.unresolved(time)
     }
 
     /// Lets the energy of the cloth grow without an error; positions are still checked.

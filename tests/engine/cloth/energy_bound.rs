@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use drape::diagnostics::stability::Stability;
 use drape::error::Kind;
 use drape::math::powi;
-use drape::scene::{Cloth, Scene, SelfCollision, Sim, Vec3};
+use drape::scene::{Cloth, Integrator, Orientation, Precision, Scene, SelfCollision, Sim, Vec3};
 use drape::simulation::Simulation;
 use rayon::prelude::*;
 
@@ -135,6 +135,30 @@ fn pushes_of_self_collision_are_no_blow_up() {
         let push = 0.5 * 150.0 * (2.0 * 0.05 * scene.sim.fps) * (2.0 * 0.05 * scene.sim.fps);
         let kinetic = simulation.energy().kinetic;
         assert!(kinetic > push || steps == 3, "{kinetic} J in motion, {push} J for one push");
+    }
+}
+
+/// Rounding moves a cloth that nothing else moves, in binary32 against the stretch limit too: that is no blow-up.
+#[test]
+fn rounding_is_no_blow_up() {
+    let kinds = [
+        (Integrator::Bdf2, Precision::F64),
+        (Integrator::ImplicitEuler, Precision::F64),
+        (Integrator::Rk4, Precision::F64),
+        (Integrator::Verlet, Precision::F64),
+        (Integrator::Verlet, Precision::F32),
+    ];
+    for (integrator, precision) in kinds {
+        for (limit, ks) in [(None, 5e3), (Some(0.1), 8e4), (Some(0.0), 5e3)] {
+            let mut scene = sheet(8, ks, 150.0);
+            (scene.sim.gravity, scene.sim.stretch_limit) = (Vec3::zeros(), limit);
+            (scene.sim.integrator, scene.sim.precision) = (integrator, precision);
+            scene.sim.self_collision = SelfCollision::Off;
+            let cloth = scene.cloth.as_mut().unwrap();
+            (cloth.orientation, cloth.offset, cloth.damping) =
+                (Orientation::Vertical, Vec3::new(2.3, 0.0, 0.0), 0.0);
+            assert_eq!(failure(&scene, 90), None, "{integrator:?}, {precision:?}, {limit:?}");
+        }
     }
 }
 

@@ -6,3 +6,4 @@ mod energy_bound;
 mod laws;
 mod method_bits;
 mod restless;
+mod unresolved;
