@@ -13,6 +13,7 @@ mod corpus;
 mod findings;
 mod grader;
 mod horizon;
+mod random_scenes;
 #[path = "../support/repository.rs"]
 mod repository;
 mod samples;
