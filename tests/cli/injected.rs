@@ -7,7 +7,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::scratch::Scratch;
@@ -42,24 +41,6 @@ const COMMANDS: [(&str, &[&str]); 13] = [
     ("sweep run spec.json out", &[]),
     ("gallery out --only part1-all", &[]),
 ];
-
-/// All files below a folder, by their path.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(folder).unwrap().display().to_string();
-                found.insert(name, fs::read(path).unwrap());
-            }
-        }
-    }
-    found
-}
 
 /// A folder in which the command can run, with old outputs.
 fn prepared(outputs: &[&str]) -> Scratch {
@@ -126,7 +107,7 @@ fn faulted(arguments: &str, outputs: &[&str], fault: [&str; 2], right: &BTreeMap
     let output = traced(&scratch, &["-e", &trace, "-e", &format!("inject={calls}:{how}")], arguments);
     let message = String::from_utf8_lossy(&output.stderr);
     fs::remove_file(scratch.path("trace")).unwrap();
-    let found = files(&scratch.path(""));
+    let found = scratch.tree("");
     let what = format!("{arguments}: {fault:?}: {message}");
     for (name, bytes) in &found {
         let old = outputs.contains(&name.as_str()) && bytes == OLD;
@@ -141,7 +122,7 @@ fn faulted(arguments: &str, outputs: &[&str], fault: [&str; 2], right: &BTreeMap
             let words: Vec<&str> = arguments.split(' ').collect();
             let again = scratch.run(&[&words[..], &["-q"]].concat());
             assert_eq!(again.code, Some(done(arguments)), "{what}: {}", again.stderr);
-            assert_eq!(&files(&scratch.path("")), right, "{what}");
+            assert_eq!(&scratch.tree(""), right, "{what}");
         }
         code => panic!("{what}: {code:?}"),
     }
@@ -159,7 +140,7 @@ fn every_call_that_fails_is_reported_and_no_file_is_torn() {
         let words: Vec<&str> = arguments.split(' ').collect();
         let run = scratch.run(&[&words[..], &["-q"]].concat());
         assert_eq!(run.code, Some(done(arguments)), "{arguments}: {}", run.stderr);
-        let right = files(&scratch.path(""));
+        let right = scratch.tree("");
         for (calls, error) in FAULTS {
             for k in 1..=count(arguments, outputs, calls) {
                 tried += 1;

@@ -1,5 +1,6 @@
 //! An empty folder in which the real program is run.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -48,6 +49,24 @@ impl Scratch {
         let mut names: Vec<_> = entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
         names.sort();
         names
+    }
+
+    /// All files below a folder in it, by their path within that folder.
+    pub(crate) fn tree(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let top = self.path(folder);
+        let (mut found, mut folders) = (BTreeMap::new(), vec![top.clone()]);
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder).expect("a folder") {
+                let path = entry.expect("an entry").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    let name = path.strip_prefix(&top).expect("it is below").display().to_string();
+                    found.insert(name, fs::read(path).expect("a file"));
+                }
+            }
+        }
+        found
     }
 
     /// The program, to be run in the folder. Its standard streams are no terminals.
