@@ -14,7 +14,7 @@ use crate::{
     math::splitmix64,
     mesh::Attributes,
     raster::{DrawCall, FragmentProgram, Framebuffer, Primitives, Stats, VertexProgram, draw},
-    scene::Filter,
+    scene::{Filter, Shader},
     texture::Texture,
 };
 
@@ -174,8 +174,8 @@ fn programs(mut check: impl FnMut(&str, &dyn Fn(Way, u32) -> Outcome), filter: F
 
 #[test]
 fn every_level_gives_the_bits_of_one_fragment_at_a_time() {
-    let mut seen = 0;
     for filter in [Filter::Bilinear, Filter::Nearest] {
+        let mut seen = Vec::new();
         programs(
             |name, outcome| {
                 let alone = outcome(Way::OneByOne, 1);
@@ -183,13 +183,17 @@ fn every_level_gives_the_bits_of_one_fragment_at_a_time() {
                 Level::for_each(|level| {
                     let differing = alone.differences(&outcome(Way::Vectors, 1));
                     assert!(differing.is_empty(), "{name} at {level:?}: {differing:?}");
-                    seen += 1;
+                    seen.push(name.to_owned());
                 });
             },
             filter,
         );
+        seen.sort_unstable();
+        let levels = Level::available().len();
+        let mut all: Vec<&str> = Shader::NAMES.iter().flat_map(|&(name, _)| vec![name; levels]).collect();
+        all.sort_unstable();
+        assert_eq!(seen, all, "every shader at every level");
     }
-    assert_eq!(seen, 18 * Level::available().len());
 }
 
 /// With several samples as well; there the order of fragments is not that of the pixels.

@@ -4,6 +4,7 @@
 use std::fmt::Write;
 use std::process::Command;
 
+use drape::scene::Shader;
 use rayon::prelude::*;
 
 use crate::repository;
@@ -16,8 +17,6 @@ const FILE: &str = "tests/cli/everywhere.txt";
 const RUN: &str = "DRAPE_RUN";
 
 const SCENES: [&str; 6] = ["pinned2", "pinned4", "sphere", "plane", "selfCollision", "table"];
-const SHADERS: [&str; 9] =
-    ["wireframe", "normal", "diffuse", "phong", "texture", "bump", "displacement", "mirror", "custom"];
 
 /// The frames whose states are kept, of the chain that `simulate --hash` prints.
 const FRAMES: [usize; 8] = [0, 1, 2, 5, 10, 30, 60, 90];
@@ -68,7 +67,7 @@ fn jobs() -> Vec<Job> {
         jobs.push(Box::new(move || {
             states(name, 30, &["sim.contact=\"coulomb\"", "sim.damping=\"per_second\""])
         }));
-        for shader in SHADERS {
+        for &(shader, _) in Shader::NAMES {
             jobs.push(Box::new(move || picture(name, &["--shader", shader])));
         }
     }

@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::scenes;
+use crate::scenes::colliders::depth_in_any;
 use drape::cloth::Points;
 use drape::diagnostics::stability::Stability;
 use drape::math::{ln, powi};
@@ -155,7 +156,10 @@ fn neighbors_sees_the_pairs_across_the_borders_of_boxes() {
     assert!(neighbors > same_box, "all pairs seen keep {neighbors} m, some {same_box} m");
 }
 
-/// How many points are inside the ball or below the floor after a step, at most.
+/// What rounding makes of the distance to an object, in metres.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// How many points are inside an object after a step, at most, and how deep.
 fn most_inside(scene: &Scene, frames: u64) -> (usize, f64) {
     let mut simulation = Simulation::new(scene).unwrap();
     let (mut most, mut deepest) = (0, 0.0_f64);
@@ -164,15 +168,8 @@ fn most_inside(scene: &Scene, frames: u64) -> (usize, f64) {
         let x = simulation.positions();
         let mut inside = 0;
         for p in 0..x.len() {
-            let mut depth = f64::NEG_INFINITY;
-            for sphere in scene.spheres() {
-                let rounding = 4.0 * f64::EPSILON * sphere.radius;
-                depth = depth.max(sphere.radius - (x.get(p) - sphere.origin).norm() - rounding);
-            }
-            for plane in scene.planes() {
-                depth = depth.max(-(x.get(p) - plane.point).dot(&plane.normal));
-            }
-            inside += usize::from(depth > 0.0);
+            let depth = depth_in_any(&scene.colliders, x.get(p));
+            inside += usize::from(depth > ROUNDING);
             deepest = deepest.max(depth);
         }
         most = most.max(inside);

@@ -3,8 +3,9 @@
 use std::fs;
 
 use drape::error::Kind;
-use drape::scene::{Overrides, Vec3, load_text};
-use drape::simulation::Simulation;
+use drape::scene::{Overrides, Scene, Vec3, load_text};
+
+use crate::scenes::colliders::depth_in_any;
 
 use super::{after, farthest, middle, scene, simulation};
 
@@ -87,16 +88,14 @@ fn a_fast_cloth_and_a_small_ball() {
     page_says("a_fast_cloth_and_a_small_ball", "the point that meets it stops on it");
 }
 
-/// The deepest that a point is inside one of the objects of a scene of balls and a floor at y = 0, in metres.
-fn deepest(simulation: &mut Simulation, balls: &[(Vec3, f64)], boxes: &[(Vec3, Vec3)], frames: u64) -> f64 {
-    let mut deepest = 0.0_f64;
+/// The deepest that a point is inside one of the objects of a scene in its first `frames`, in metres.
+fn deepest(scene: &Scene, frames: u64) -> f64 {
+    let (mut simulation, mut deepest) = (simulation(scene), 0.0_f64);
     for _ in 0..frames {
         simulation.advance_frame().unwrap();
         let x = simulation.positions();
         for x in (0..x.len()).map(|p| x.get(p)) {
-            let balls = balls.iter().map(|(origin, radius)| radius - (x - origin).norm());
-            let boxes = boxes.iter().map(|(origin, half)| (half - (x - origin).abs()).min());
-            deepest = balls.chain(boxes).fold(deepest.max(-x.y), f64::max);
+            deepest = deepest.max(depth_in_any(&scene.colliders, x));
         }
     }
     deepest
@@ -110,8 +109,7 @@ fn a_ball_and_a_plane_that_overlap() {
     ];
     for velocity in ["cloth.velocity=[0,-1,0]", "cloth.velocity=[3000,-10000,0]"] {
         let size = ["cloth.num_width_points=16", "cloth.num_height_points=16", "cloth.damping=0.2", velocity];
-        let mut simulation = simulation(&scene(&[&objects[..], &size].concat()));
-        let deep = deepest(&mut simulation, &[(Vec3::new(0.5, 0.1, 0.5), 0.3)], &[], 90);
+        let deep = deepest(&scene(&[&objects[..], &size].concat()), 90);
         assert!(deep < 1e-12, "{velocity}: {deep:e} m");
     }
     page_says("a_ball_and_a_plane_that_overlap", "no point is inside of either");
@@ -123,9 +121,7 @@ fn a_corner_of_a_box() {
     let floor = r#"plane={"point":[0,0,0],"normal":[0,1,0],"friction":0.2}"#;
     for velocity in ["cloth.velocity=[0,-1,0]", "cloth.velocity=[5000,-10000,5000]"] {
         let size = ["cloth.num_width_points=16", "cloth.num_height_points=16", "cloth.damping=0.2", velocity];
-        let mut simulation = simulation(&scene(&[&[cube, floor], &size[..]].concat()));
-        let half = Vec3::new(0.25, 0.25, 0.25);
-        let deep = deepest(&mut simulation, &[], &[(Vec3::new(0.75, 0.5, 0.75), half)], 90);
+        let deep = deepest(&scene(&[&[cube, floor], &size[..]].concat()), 90);
         assert!(deep < 1e-12, "{velocity}: {deep:e} m");
     }
     page_says("a_corner_of_a_box", "no point is inside");

@@ -4,10 +4,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use drape::scene::{Collider, ColliderKind, Overrides, load_text, schema};
+use drape::scene::{ColliderKind, Overrides, load_text, schema};
 use jsonschema::Validator;
 use proptest::prelude::*;
 use serde_json::{Value, json};
+
+use crate::scenes::colliders;
 
 fn validator() -> Validator {
     jsonschema::draft202012::new(&schema()).expect("a schema")
@@ -104,10 +106,10 @@ fn wrong_scenes_are_refused() {
 }
 
 /// A key of the schema: the way to it, and what it must be.
-type Leaf = (Vec<String>, Value);
+pub(super) type Leaf = (Vec<String>, Value);
 
 /// Every key that holds no further keys.
-fn leaves() -> Vec<Leaf> {
+pub(super) fn leaves() -> Vec<Leaf> {
     fn walk(schema: &Value, path: &[String], found: &mut Vec<Leaf>) {
         // The first form of an object that may be a list.
         let one = schema.get("anyOf").and_then(|forms| forms.get(0)).filter(|form| form["type"] == "object");
@@ -153,7 +155,7 @@ fn values(leaf: &Value) -> Vec<Value> {
 }
 
 /// Puts a value into a document, and objects on the way where there are none.
-fn insert(document: &mut Value, path: &[String], value: Value) {
+pub(super) fn insert(document: &mut Value, path: &[String], value: Value) {
     let mut place = document;
     for step in path {
         if !place[step].is_object() && Some(step) != path.last() {
@@ -165,11 +167,14 @@ fn insert(document: &mut Value, path: &[String], value: Value) {
 }
 
 /// A scene with everything that must be there.
-fn base() -> Value {
+pub(super) fn base() -> Value {
     let mut scene =
         documents("scenes").into_iter().find(|(name, _)| name.ends_with("sphere.json")).expect("it").1;
-    scene["plane"] = json!({ "point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0 });
-    scene["box"] = json!({ "origin": [0, 0, 0], "size": [1, 1, 1], "friction": 0 });
+    for &kind in ColliderKind::ALL {
+        if scene.get(kind.key()).is_none() {
+            scene[kind.key()] = colliders::example(kind);
+        }
+    }
     scene
 }
 
@@ -237,9 +242,9 @@ fn every_default_is_the_value_of_a_key_that_is_left_out() {
         let mut given = load(&document);
         // A colour that is given is that of planes too, which are grey otherwise.
         if path == ["material", "color"] {
-            let planes = scene.planes().cloned().map(Collider::Plane);
-            given.colliders.retain(|collider| collider.kind() != ColliderKind::Plane);
-            given.colliders.splice(0..0, planes);
+            for (given, collider) in given.colliders.iter_mut().zip(&scene.colliders) {
+                given.material_mut().color = collider.material().color;
+            }
         }
         assert!(given == scene, "{path:?} is not {default}");
         defaults += 1;

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test uses some of these")]
 
+pub(crate) mod colliders;
+
 use drape::scene::{Cloth, Collider, Material, Orientation, Plane, Render, Scene, Sphere, Vec3};
 
 /// Every stock scene by name.
