@@ -57,6 +57,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod version;
 pub mod error;
 pub mod fence;
 pub mod bounded;

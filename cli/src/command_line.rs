@@ -19,7 +19,7 @@ use drape::error::{Error, Kind, Result};
 
 /// A reference cloth simulator and software rasteriser: exact, deterministic, on the CPU alone.
 #[derive(Parser)]
-#[command(name = "drape", version, max_term_width = 100, after_long_help = EXIT_CODES)]
+#[command(name = "drape", version = drape::version::VERSION, max_term_width = 100, after_long_help = EXIT_CODES)]
 pub(crate) struct CommandLine {
     #[command(subcommand)]
     pub(crate) command: Command,

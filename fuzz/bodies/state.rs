@@ -5,6 +5,7 @@ use drape::math::StateHash;
 use drape::scene::{Overrides, Scene, load_text};
 use drape::simulation::Simulation;
 use drape::simulation::snapshot::Snapshot;
+use drape::version::VERSION;
 
 /// Nine points that can meet everything.
 const SCENE: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 3, "num_height_points": 3,
@@ -33,6 +34,7 @@ const WAYS: [&[&str]; 8] = [
 /// Reads a state, and goes on from it.
 pub(crate) fn run(bytes: &[u8]) {
     let [way, state @ ..] = bytes else { return };
+    let state = &of_this_version(state);
     let scene = scene(usize::from(*way) % WAYS.len());
     goes_on(&scene, state);
     goes_on(&scene, &with_checksum(state));
@@ -42,6 +44,16 @@ pub(crate) fn run(bytes: &[u8]) {
 pub(crate) fn scene(way: usize) -> Scene {
     let sets = WAYS[way].iter().map(ToString::to_string).collect();
     load_text("scene.json", SCENE, &Overrides { sets, ..Overrides::default() }).expect("a scene").scene
+}
+
+/// The state with the version of this program in place of the bare release: the inputs stay good when results change.
+fn of_this_version(state: &[u8]) -> Vec<u8> {
+    const RELEASE: &[u8] = b"\"version\":\"0.1.0\"";
+    let Some(place) = state.windows(RELEASE.len()).position(|part| part == RELEASE) else {
+        return state.to_vec();
+    };
+    let version = format!("\"version\":\"{VERSION}\"");
+    [&state[..place], version.as_bytes(), &state[place + RELEASE.len()..]].concat()
 }
 
 fn with_checksum(content: &[u8]) -> Vec<u8> {

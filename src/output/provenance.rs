@@ -5,7 +5,7 @@
 //!
 //! | key | what it says |
 //! |---|---|
-//! | `version` | the version of the program |
+//! | `version` | the version of the program, with a mark of its results |
 //! | `scene` | the hash of the scene's text |
 //! | `scene-json` | that text: a scene file with every key, all changes made. It has no `render.time`, since the moment is an argument. Left out above [`MAX_TEXT`] |
 //! | `arguments` | the moments, what is drawn, and what was changed in the scene file |
@@ -25,6 +25,7 @@ use serde_json::{Map, Value};
 use crate::error::{Error, Kind, Result};
 use crate::math::StateHash;
 use crate::scene::{Difference, Loaded, Scene, differences, stock_name};
+use crate::version::VERSION;
 
 /// Most bytes of the text of a scene, and of the arguments.
 pub const MAX_TEXT: usize = 1 << 16;
@@ -42,7 +43,7 @@ pub struct Provenance {
     /// The hash of the state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
-    /// The version of the program.
+    /// The version of the program, see [`VERSION`].
     pub version: String,
     /// The hash of the scene's text.
     pub scene: String,
@@ -131,7 +132,7 @@ impl Provenance {
         let fits = changes.iter().map(String::len).sum::<usize>() <= MAX_TEXT;
         let stock = unchanged.and_then(stock_name).map(str::to_owned);
         Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: VERSION.to_owned(),
             scene: bytes_hash(scene.as_bytes()),
             arguments: Arguments { stock, changes: if fits { changes } else { Vec::new() }, ..arguments },
             scene_json: (scene.len() <= MAX_TEXT).then_some(document),

@@ -10,7 +10,10 @@ fn help_and_version_are_results() {
         let run = scratch.run(arguments);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}");
         let text = String::from_utf8(run.stdout).unwrap();
-        assert!(text.contains("Usage: drape") || text == "drape 0.1.0\n", "{text}");
+        assert!(
+            text.contains("Usage: drape") || text == format!("drape {}\n", drape::version::VERSION),
+            "{text}"
+        );
         assert!(!text.contains('\x1b'), "no colour where there is no terminal");
     }
 }

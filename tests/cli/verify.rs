@@ -338,7 +338,7 @@ fn nothing_of_the_machine_is_in_a_file_unless_it_is_asked_for() {
     };
     let holds = |bytes: &[u8], name: &str| bytes.windows(name.len()).any(|window| window == name.as_bytes());
     for bytes in write(&[]) {
-        assert!(holds(&bytes, env!("CARGO_PKG_VERSION")) && !holds(&bytes, "secret"));
+        assert!(holds(&bytes, drape::version::VERSION) && !holds(&bytes, "secret"));
     }
     for bytes in write(&["--provenance", "command"]) {
         assert!(holds(&bytes, "secret-folder/secret-scene.json"));

@@ -127,7 +127,7 @@ fn a_state_of_another_scene_or_version_is_refused_with_what_differs() {
 
     // The version stands in the line at the start, which the checksum covers.
     let mut bytes = snapshot.encode();
-    let version = format!("\"version\":\"{}\"", env!("CARGO_PKG_VERSION"));
+    let version = format!("\"version\":\"{}\"", drape::version::VERSION);
     let place = bytes.windows(version.len()).position(|part| part == version.as_bytes()).unwrap();
     bytes.splice(place..place + version.len(), *b"\"version\":\"0.0.7\"");
     let end = bytes.len() - 8;

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use drape::math::splitmix64;
+use drape::version::VERSION;
 
 /// A hash of all that a result depends on: FNV-1a, 128 bits, whose halves are mixed so that similar inputs have unlike
 /// first digits. Among a million results the chance that two have the same is 1e-27.
@@ -15,9 +16,9 @@ const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
 impl Address {
-    /// The address of a result of `kind` that depends on `inputs` and on the version of the program.
+    /// The address of a result of `kind` that depends on `inputs` and on the version of the program, that of its results included.
     pub fn of(kind: &str, inputs: &str) -> Self {
-        let text = format!("{} {kind} {inputs}", env!("CARGO_PKG_VERSION"));
+        let text = format!("{} {kind} {inputs}", VERSION);
         Self(mixed(text.bytes().fold(OFFSET, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))))
     }
 }

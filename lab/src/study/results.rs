@@ -10,6 +10,7 @@ use super::reference::Difference;
 use super::runs::Measured;
 use crate::csv::Csv;
 use crate::page::short;
+use drape::version::VERSION;
 
 /// `results.json`
 #[derive(Serialize)]
@@ -97,7 +98,7 @@ impl<'a> Results<'a> {
     /// The results of `study` of the scene called `scene`; the counts are those of [`crate::store::Store::counts`].
     pub fn new(study: &'a Study, scene: &'a str, [runs_made, runs_kept]: [u64; 2]) -> Self {
         Self {
-            version: env!("CARGO_PKG_VERSION"),
+            version: VERSION,
             scene,
             threads: rayon::current_num_threads(),
             runs_made,

@@ -15,6 +15,7 @@ use crate::store::{Store, WriteFile};
 use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::sweep::Spec;
+use drape::version::VERSION;
 
 /// The files of a plan.
 const PLAN: &str = "plan.json";
@@ -23,9 +24,6 @@ const RESULTS: &str = "results";
 
 /// Most cases of a plan: their lines take some 100 GB.
 const MOST_CASES: u64 = 1_000_000_000;
-
-/// The version of the program, which a plan does not outlive.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A text with the name that messages give it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -16,9 +16,7 @@ use crate::diagnostics::ledger::Ledger;
 use crate::diagnostics::rest::Quiet;
 use crate::error::{Error, Kind, Result};
 use crate::scene::Scene;
-
-/// The version of the program, which a state does not outlive.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+use crate::version::VERSION;
 
 /// What who watches a simulation knows of its last frames, which the state alone does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

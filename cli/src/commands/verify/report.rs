@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use drape::error::{Error, Kind, Result};
 use drape::output::provenance::{Arguments, Provenance};
+use drape::version::VERSION;
 
 /// One thing that the file says, and what was found.
 #[derive(Serialize)]
@@ -43,7 +44,7 @@ impl Report {
             differs: None,
             why: None,
             version: provenance.version.clone(),
-            program: env!("CARGO_PKG_VERSION"),
+            program: VERSION,
             arguments: provenance.arguments.clone(),
             checks: Vec::new(),
             differing_pixels: None,
