@@ -70,32 +70,13 @@ impl Texture {
     ///
     /// # Errors
     /// [`Kind::Scene`], with `name` in the message, if the bytes are of another format, too large,
-    /// corrupt or cut short.
+    /// corrupt or cut short; [`Kind::Io`] if there is no memory for the texels.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self> {
-        fenced(|| Self::decode_unfenced(name, bytes)).unwrap_or_else(|why| Err(invalid(name, &why)))
-    }
-
-    fn decode_unfenced(name: &str, bytes: &[u8]) -> Result<Self> {
-        let invalid = |why: &dyn std::fmt::Display| invalid(name, why);
-        let mut reader = ImageReader::new(Cursor::new(bytes));
-        match image::guess_format(bytes) {
-            Ok(ImageFormat::Png) if !png_ends(bytes) => return Err(invalid(&"the PNG is cut short")),
-            Ok(ImageFormat::Jpeg) if !jpeg_ends(bytes) => return Err(invalid(&"the JPEG is cut short")),
-            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => reader.set_format(format),
-            _ => return Err(invalid(&"it is neither a PNG nor a JPEG")),
-        }
-        let mut limits = Limits::default();
-        limits.max_alloc = Some(MAX_DECODER_BYTES);
-        reader.limits(limits);
-        let mut decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
-        let (width, height) = decoder.dimensions();
-        if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_TEXELS {
-            return Err(invalid(&format_args!("{width} x {height} is too large")));
-        }
-        let orientation = orientation(&mut decoder, bytes).map_err(|error| invalid(&error))?;
-        let mut image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
-        image.apply_orientation(orientation);
-        Self::from_image(image).ok_or_else(|| {
+        let image = fenced(|| picture(name, bytes)).unwrap_or_else(|why| Err(invalid(name, &why)))?;
+        let (width, height) = (image.width(), image.height());
+        // A picture that was decoded can be converted, if there is memory for it; the converter panics where not.
+        let texture = fenced(|| Self::from_image(image)).ok().flatten();
+        texture.ok_or_else(|| {
             let bytes = u64::from(width) * u64::from(height) * TEXEL_BYTES;
             let message =
                 format!("there is no memory for the {width} x {height} texels of {name}, {bytes} bytes");
@@ -165,6 +146,30 @@ impl Texture {
     pub fn red(&self) -> &[f32] {
         self.red.get_or_init(|| self.texels.iter().map(|&[red, ..]| red).collect())
     }
+}
+
+/// The picture in a file, turned as it says.
+fn picture(name: &str, bytes: &[u8]) -> Result<DynamicImage> {
+    let invalid = |why: &dyn std::fmt::Display| invalid(name, why);
+    let mut reader = ImageReader::new(Cursor::new(bytes));
+    match image::guess_format(bytes) {
+        Ok(ImageFormat::Png) if !png_ends(bytes) => return Err(invalid(&"the PNG is cut short")),
+        Ok(ImageFormat::Jpeg) if !jpeg_ends(bytes) => return Err(invalid(&"the JPEG is cut short")),
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => reader.set_format(format),
+        _ => return Err(invalid(&"it is neither a PNG nor a JPEG")),
+    }
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MAX_DECODER_BYTES);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
+    let (width, height) = decoder.dimensions();
+    if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_TEXELS {
+        return Err(invalid(&format_args!("{width} x {height} is too large")));
+    }
+    let orientation = orientation(&mut decoder, bytes).map_err(|error| invalid(&error))?;
+    let mut image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
+    image.apply_orientation(orientation);
+    Ok(image)
 }
 
 /// The error of a texture called `name`.

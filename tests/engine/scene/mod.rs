@@ -1,5 +1,6 @@
 //! Scene files: values, errors, schema.
 
+mod changes;
 mod errors;
 mod robust;
 mod page;

@@ -1,6 +1,7 @@
 //! Promise: whatever is wrong in a scene is named with its place, all of it at once, and nothing
 //! that can be read makes the reader panic.
 
+mod changes;
 mod rendered;
 mod text;
 mod values;
