@@ -8,8 +8,8 @@
 //! At the turn of a member those after it are where they were, and each one before it noted, where it went, which of
 //! the later ones may be close to it there.
 
-use fearless_simd::{f32x8, mask32x8};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, mask32x8};
 
 use super::separation::{Pushes, Separation};
 use crate::cloth::{Points, filled};
