@@ -13,7 +13,7 @@ pub(super) type CellKey = (i64, i64, i64);
 #[derive(Clone, Debug)]
 pub(super) struct CellList {
     /// The points by cell, and by index within a cell.
-    pub(super) order: Vec<usize>,
+    pub(super) order: Vec<u32>,
     /// The cells with a point, in order, each with the end of its range of `order`.
     cells: Vec<(CellKey, usize)>,
     /// The cells with two or more points, as ranges of `order`.
@@ -42,8 +42,8 @@ impl CellList {
     pub(super) fn merge(
         &mut self,
         old: &Self,
-        mut leaving: &[(CellKey, usize)],
-        mut entering: &[(CellKey, usize)],
+        mut leaving: &[(CellKey, u32)],
+        mut entering: &[(CellKey, u32)],
     ) {
         self.clear();
         let mut start = 0;
@@ -56,7 +56,7 @@ impl CellList {
     }
 
     /// Adds the cells at the front of `entering` that `is_new` says had no point.
-    fn push_new(&mut self, entering: &mut &[(CellKey, usize)], is_new: impl Fn(CellKey) -> bool) {
+    fn push_new(&mut self, entering: &mut &[(CellKey, u32)], is_new: impl Fn(CellKey) -> bool) {
         while let Some(&(key, _)) = entering.first().filter(|(key, _)| is_new(*key)) {
             self.push(key, &[], &mut [].as_slice(), entering);
         }
@@ -67,12 +67,12 @@ impl CellList {
     fn push(
         &mut self,
         key: CellKey,
-        members: &[usize],
-        leaving: &mut &[(CellKey, usize)],
-        entering: &mut &[(CellKey, usize)],
+        members: &[u32],
+        leaving: &mut &[(CellKey, u32)],
+        entering: &mut &[(CellKey, u32)],
     ) {
         let start = self.order.len();
-        let is_next = |list: &[(CellKey, usize)]| list.first().is_some_and(|&(of, _)| of == key);
+        let is_next = |list: &[(CellKey, u32)]| list.first().is_some_and(|&(of, _)| of == key);
         if is_next(leaving) || is_next(entering) {
             for &p in members {
                 while let Some(q) = take(entering, |next| next < (key, p)) {
@@ -99,7 +99,7 @@ impl CellList {
 }
 
 /// Takes the point at the front of `list` if `take` says so of it and its cell.
-fn take(list: &mut &[(CellKey, usize)], take: impl Fn((CellKey, usize)) -> bool) -> Option<usize> {
+fn take(list: &mut &[(CellKey, u32)], take: impl Fn((CellKey, u32)) -> bool) -> Option<u32> {
     let (&(_, p), rest) = list.split_first().filter(|&(&first, _)| take(first))?;
     *list = rest;
     Some(p)

@@ -108,7 +108,7 @@ impl Neighbors {
                 }
                 *start..*end
             }));
-            members.iter().for_each(|&p| self.cell_of[p] = self.around.len() - 1);
+            members.iter().for_each(|&p| self.cell_of[p as usize] = self.around.len() - 1);
         }
     }
 
@@ -119,7 +119,7 @@ impl Neighbors {
         let mut compared = 0;
         self.close.clear();
         for run in &self.around[self.cell_of[p]] {
-            for &q in &order[run.clone()] {
+            for q in order[run.clone()].iter().map(|&q| q as usize) {
                 let e = position - x.get(q);
                 if dot(e, e) <= self.rule.reach && q != p {
                     self.close.push(q);

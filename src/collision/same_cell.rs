@@ -5,20 +5,23 @@
 //! So going cell by cell, and in index order within each, gives what index order over the whole
 //! cloth gives; and a cell in which no two points are close at its turn is left as it is.
 
-use std::ops::{Add, Range};
+use std::ops::Range;
 
-use super::cell::{Cell, PADDING};
+use fearless_simd::Simd;
+use rayon::prelude::*;
+
+use super::cell::{Cell, Screen, Slots};
 use super::pairs::Pairs;
 use super::separation::Separation;
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::{Grid, Pins};
-use crate::cloth::{Counters, Points, chunks, filled};
+use crate::cloth::{Counters, Points, chunks, filled, too_large};
 use crate::error::Result;
-use crate::lanes::level::dispatch_plain;
-use crate::scene::{Cloth, Sim};
+use crate::lanes::level::{Narrow, dispatch_narrow};
+use crate::scene::{Cloth, Sim, Vec3};
 
-/// Most cells of a chunk of a large cloth: about a thousand points.
-const CELLS: usize = 128;
+/// Points of a part of a large cloth.
+const POINTS: usize = 2048;
 
 /// Just above 1: see [`Separation::new`].
 const MARGIN: f64 = 1.0 + 1e-12;
@@ -27,12 +30,31 @@ const MARGIN: f64 = 1.0 + 1e-12;
 #[derive(Clone, Debug)]
 pub(crate) struct SameCell {
     rule: Separation,
+    screen: Screen,
     /// The points by cell.
     pub(super) grid: UniformGrid,
-    /// Slots for the positions of the members of each shared cell, and [`PADDING`] more for each.
-    positions: Points,
-    /// Of each shared cell in which a member moved, the first of its slots.
-    moved: Vec<Option<usize>>,
+    /// As many shared cells each, in order.
+    parts: Vec<Part>,
+}
+
+/// What the work on some cells needs and finds.
+#[derive(Clone, Debug)]
+struct Part {
+    slots: Slots,
+    /// The members that moved, and where to.
+    moved: Vec<(u32, Vec3)>,
+    /// Pairs that were compared.
+    pairs: u64,
+}
+
+/// What the work on each cell reads.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    rule: Separation,
+    screen: Screen,
+    grid: &'a UniformGrid,
+    x: &'a Points,
+    pinned: &'a [bool],
 }
 
 impl SameCell {
@@ -43,29 +65,39 @@ impl SameCell {
     pub(super) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Self> {
         let bx = 3.0 * cloth.width / grid.width as f64;
         let by = 3.0 * cloth.height / grid.height as f64;
-        let most_cells = x.len() / 2;
-        let slots = x.len() + PADDING * most_cells;
+        let rule = Separation::new(cloth, sim, MARGIN);
+        // A small cloth is one part, with room for all that may happen, so that no step takes memory.
+        let small = x.len() < chunks::MANY;
+        let (parts, of_one) = if small { (1, x.len()) } else { (x.len() / POINTS, 0) };
+        let room = if small { x.len() / 2 * Slots::needed(2) + 1 } else { 2 * POINTS };
+        let mut moved = Vec::new();
+        moved.try_reserve_exact(of_one).map_err(|_| too_large())?;
         Ok(Self {
-            rule: Separation::new(cloth, sim, MARGIN),
+            rule,
+            screen: Screen::new(bx.max(by), &rule),
             grid: UniformGrid::new([bx, by, bx.max(by)], x)?,
-            positions: Points::zeros(slots)?,
-            moved: filled(most_cells, None)?,
+            parts: filled(parts, Part { slots: Slots::new(room, of_one)?, moved, pairs: 0 })?,
         })
     }
 
     /// Moves apart the close points of every cell; pinned points stay.
     pub(super) fn apply(&mut self, x: &mut Points, pins: &Pins, counters: &mut Counters) {
         self.grid.update(x);
-        let Self { rule, grid, positions, moved } = self;
-        let range = 0..grid.shared_cells();
-        let most = if x.len() < chunks::MANY { range.len() } else { CELLS };
-        let inputs = Inputs { rule: *rule, grid, x, pins };
-        let whole = Cells { inputs, range, first_slot: 0, positions: positions.components_mut(), moved };
-        let Tally { pairs, moves } = whole.run_in_parts(most);
-        counters.boxes_searched += grid.shared_cells() as u64;
-        counters.pairs_tested += pairs;
-        counters.self_collision_moves += moves;
-        self.write_back(x);
+        let Self { rule, screen, grid, parts } = self;
+        let (cells, count) = (grid.shared_cells(), parts.len());
+        let screen = if grid.is_near() { *screen } else { Screen::ALL };
+        let work = Work { rule: *rule, screen, grid, x, pinned: &pins.pinned };
+        parts.par_iter_mut().enumerate().for_each(|(index, part)| {
+            let cells = index * cells / count..(index + 1) * cells / count;
+            part.slots.make_room(cells.clone().map(|cell| work.grid.members(cell).len()));
+            dispatch_narrow!(Narrow::widest(), simd => part.run(simd, cells, &work));
+        });
+        counters.boxes_searched += cells as u64;
+        for part in parts {
+            part.moved.iter().for_each(|&(p, position)| x.set(p as usize, position));
+            counters.pairs_tested += part.pairs;
+            counters.self_collision_moves += part.moved.len() as u64;
+        }
     }
 
     /// Finds the pairs of each cell that are too close at `x`.
@@ -75,104 +107,34 @@ impl SameCell {
         for index in 0..self.grid.shared_cells() {
             let members = self.grid.members(index);
             for (place, &p) in members.iter().enumerate() {
-                members[place + 1..].iter().for_each(|&q| pairs.add(p, q, x, pins));
+                members[place + 1..].iter().for_each(|&q| pairs.add(p as usize, q as usize, x, pins));
             }
             counters.pairs_tested += (members.len() * (members.len() - 1) / 2) as u64;
         }
     }
-
-    /// Takes over the positions of the cells in which a member moved.
-    fn write_back(&self, x: &mut Points) {
-        for (index, moved) in self.moved[..self.grid.shared_cells()].iter().enumerate() {
-            let Some(slot) = *moved else { continue };
-            for (at, &p) in (slot..).zip(self.grid.members(index)) {
-                x.set(p, self.positions.get(at));
-            }
-        }
-    }
 }
 
-/// How many slots the shared cells before `index` may take.
-fn slots_before(grid: &UniformGrid, index: usize) -> usize {
-    grid.start(index) + PADDING * index
-}
-
-/// What was done in some cells.
-#[derive(Clone, Copy, Default)]
-struct Tally {
-    pairs: u64,
-    moves: u64,
-}
-
-impl Add for Tally {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { pairs: self.pairs + other.pairs, moves: self.moves + other.moves }
-    }
-}
-
-/// What the work on each cell reads.
-#[derive(Clone, Copy)]
-struct Inputs<'a> {
-    rule: Separation,
-    grid: &'a UniformGrid,
-    x: &'a Points,
-    pins: &'a Pins,
-}
-
-/// Consecutive shared cells and what the work on them changes.
-struct Cells<'a> {
-    inputs: Inputs<'a>,
-    range: Range<usize>,
-    first_slot: usize,
-    positions: [&'a mut [f64]; 3],
-    moved: &'a mut [Option<usize>],
-}
-
-impl Cells<'_> {
-    /// Works on all cells, in parts of at most `most` on several threads.
-    fn run_in_parts(self, most: usize) -> Tally {
-        if self.range.len() <= most {
-            return dispatch_plain!(self.run());
-        }
-        let [a, b] = self.halves();
-        let (a, b) = rayon::join(|| a.run_in_parts(most), || b.run_in_parts(most));
-        a + b
-    }
-
-    /// Works on all cells, one after the other.
+impl Part {
+    /// Moves apart the close points of `cells`.
     #[inline(always)]
-    fn run(self) -> Tally {
-        let Self { inputs, range, first_slot, mut positions, moved } = self;
-        let mut tally = Tally::default();
+    fn run<S: Simd>(&mut self, simd: S, cells: Range<usize>, of: &Work<'_>) {
+        let Self { slots, moved, pairs } = self;
+        // All cells first: what was just stored a number at a time cannot be loaded as a vector at once.
         let mut next = 0;
-        for (index, moved) in range.zip(moved) {
-            let members = inputs.grid.members(index);
-            let slots = next..next + members.len() + PADDING;
-            let positions = positions.each_mut().map(|component| &mut component[slots.clone()]);
-            let mut cell = Cell::load(members, inputs.rule, inputs.x, positions);
-            let moves = if cell.any_close() { cell.separate(&inputs.pins.pinned) } else { 0 };
-            *moved = (moves > 0).then_some(first_slot + next);
-            // A cell that stays as it is leaves its slots, which are in the cache, to the next.
-            next = if moves > 0 { slots.end } else { next };
-            tally.moves += moves;
-            tally.pairs += (members.len() * (members.len() - 1) / 2) as u64;
+        for cell in cells.clone() {
+            let members = of.grid.members(cell);
+            slots.load(next, members, of.x);
+            next += Slots::needed(members.len());
         }
-        tally
-    }
-
-    /// The first half of the cells, and the second.
-    fn halves(self) -> [Self; 2] {
-        let Self { inputs, range: Range { start, end }, first_slot, positions, moved } = self;
-        let middle = start.midpoint(end);
-        let slot = slots_before(inputs.grid, middle);
-        let [x, y, z] = positions.map(|component| component.split_at_mut(slot - first_slot));
-        let moved = moved.split_at_mut(middle - start);
-        let (a, b) = ([x.0, y.0, z.0], [x.1, y.1, z.1]);
-        [
-            Cells { inputs, range: start..middle, first_slot, positions: a, moved: moved.0 },
-            Cells { inputs, range: middle..end, first_slot: slot, positions: b, moved: moved.1 },
-        ]
+        moved.clear();
+        *pairs = 0;
+        next = 0;
+        for cell in cells {
+            let members = of.grid.members(cell);
+            let mut cell = Cell { members, x: of.x, screen: of.screen, start: next, slots };
+            cell.separate(simd, &of.rule, of.pinned, moved);
+            next += Slots::needed(members.len());
+            *pairs += (members.len() * (members.len() - 1) / 2) as u64;
+        }
     }
 }

@@ -23,6 +23,12 @@ impl Separation {
         Self { distance, reach: distance * distance * margin, steps_per_frame }
     }
 
+    /// The rule of a distance, in metres, and so many steps a frame.
+    #[cfg(test)]
+    pub(super) fn of(distance: f64, steps_per_frame: f64) -> Self {
+        Self { distance, reach: distance * distance, steps_per_frame }
+    }
+
     /// Where a point at `position` goes after `pushes`; `None` without any.
     #[inline(always)]
     pub(super) fn corrected(&self, position: Vec3, pushes: &Pushes) -> Option<Vec3> {

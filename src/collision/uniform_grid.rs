@@ -11,12 +11,15 @@ use rayon::prelude::*;
 
 use super::axis::Axis;
 use super::cell_list::{CellKey, CellList};
-use crate::cloth::{Points, chunks, filled};
+use crate::cloth::{Points, chunks, filled, too_large};
 use crate::error::Result;
 use crate::lanes::level::dispatch_plain;
 
 /// Points whose bounds are compared at once.
 const BLOCK: usize = 8;
+
+/// From this number on, a cell counts as far away.
+const FAR: u64 = 1 << 40;
 
 /// The points of a cloth by cell.
 #[derive(Clone, Debug)]
@@ -25,6 +28,8 @@ pub(super) struct UniformGrid {
     axes: [Axis; 3],
     /// What tells cells apart instead of their three numbers.
     hash: Option<fn([i64; 3]) -> i64>,
+    /// Whether a point ever lay in a cell with a large number.
+    far: bool,
     /// The cell of every point.
     keys: Vec<CellKey>,
     /// The points by cell.
@@ -34,9 +39,9 @@ pub(super) struct UniformGrid {
     /// Of each block, whether one of its points may have left its cell.
     dirty: Vec<bool>,
     /// The points that left a cell, each after the cell.
-    leaving: Vec<(CellKey, usize)>,
+    leaving: Vec<(CellKey, u32)>,
     /// The points that entered a cell, each after the cell.
-    entering: Vec<(CellKey, usize)>,
+    entering: Vec<(CellKey, u32)>,
 }
 
 impl UniformGrid {
@@ -47,9 +52,11 @@ impl UniformGrid {
     pub(super) fn new(size: [f64; 3], x: &Points) -> Result<Self> {
         let [sx, sy, sz] = size;
         let points = x.len();
+        u32::try_from(points).map_err(|_| too_large())?;
         let mut grid = Self {
             axes: [Axis::new(sx, points)?, Axis::new(sy, points)?, Axis::new(sz, points)?],
             hash: None,
+            far: false,
             keys: filled(points, CellKey::default())?,
             list: CellList::new(points)?,
             next: CellList::new(points)?,
@@ -78,13 +85,13 @@ impl UniformGrid {
     }
 
     /// All points, by cell and by index within a cell.
-    pub(super) fn order(&self) -> &[usize] {
+    pub(super) fn order(&self) -> &[u32] {
         &self.list.order
     }
 
     /// The cell of point `p`.
-    pub(super) fn key(&self, p: usize) -> CellKey {
-        self.keys[p]
+    pub(super) fn key(&self, p: u32) -> CellKey {
+        self.keys[p as usize]
     }
 
     /// How many cells hold two or more points.
@@ -93,13 +100,14 @@ impl UniformGrid {
     }
 
     /// The points of shared cell `index` (below [`UniformGrid::shared_cells`]), in index order.
-    pub(super) fn members(&self, index: usize) -> &[usize] {
+    pub(super) fn members(&self, index: usize) -> &[u32] {
         &self.list.order[self.list.shared[index].clone()]
     }
 
-    /// Where the members of shared cell `index` start in [`UniformGrid::order`].
-    pub(super) fn start(&self, index: usize) -> usize {
-        self.list.shared[index].start
+    /// Whether the points of each cell are surely no further apart than a cell is long, but for rounding: no two cells
+    /// were made one, and none had so large a number that a coordinate in it has hardly a fraction.
+    pub(super) fn is_near(&self) -> bool {
+        self.hash.is_none() && !self.far
     }
 
     /// Puts every point into its cell after the points moved to `x`.
@@ -132,8 +140,8 @@ impl UniformGrid {
             let old = self.keys[p];
             self.set_cell(p, x);
             if self.keys[p] != old {
-                self.leaving.push((old, p));
-                self.entering.push((self.keys[p], p));
+                self.leaving.push((old, number(p)));
+                self.entering.push((self.keys[p], number(p)));
             }
         }
     }
@@ -142,6 +150,7 @@ impl UniformGrid {
     fn set_cell(&mut self, p: usize, x: &Points) {
         let [ax, ay, az] = &mut self.axes;
         let (i, j, k) = (ax.cell_of(p, x.x[p]), ay.cell_of(p, x.y[p]), az.cell_of(p, x.z[p]));
+        self.far |= [i, j, k].iter().any(|n| n.unsigned_abs() >= FAR);
         self.keys[p] = self.hash.map_or((i, j, k), |hash| (hash([i, j, k]), 0, 0));
     }
 
@@ -153,6 +162,12 @@ impl UniformGrid {
         next.merge(list, leaving, entering);
         mem::swap(list, next);
     }
+}
+
+/// The number of a point: [`UniformGrid::new`] takes no more points than have one.
+#[expect(clippy::cast_possible_truncation, reason = "there are fewer points")]
+fn number(p: usize) -> u32 {
+    p as u32
 }
 
 /// The points of block `block` of so many points.
@@ -214,7 +229,8 @@ mod tests {
                 x.z[p] += 0.004 * noise(at + 2);
             }
             grid.update(&x);
-            let found: Vec<_> = (0..grid.shared_cells()).map(|index| grid.members(index).to_vec()).collect();
+            let members = |index| grid.members(index).iter().map(|&p| p as usize).collect();
+            let found: Vec<Vec<usize>> = (0..grid.shared_cells()).map(members).collect();
             assert_eq!(found, shared_cells(size, &x), "step {step}");
         }
     }

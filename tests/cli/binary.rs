@@ -22,8 +22,9 @@ struct Function {
     wide: usize,
     /// Those of four f32.
     narrow: usize,
-    /// Of 256-bit vectors of f64: roots, divisions and comparisons; and roots of single f64.
-    of_f64: [usize; 4],
+    /// Of 256-bit vectors of f64: roots, divisions and comparisons; roots of single f64; and comparisons of 256-bit vectors
+    /// of f32.
+    of_cloth: [usize; 5],
     /// Addresses of the functions that it calls.
     calls: Vec<u64>,
 }
@@ -45,14 +46,15 @@ fn divides(mnemonic: &str, operands: &str) -> [bool; 2] {
     [single && !wide, root && wide]
 }
 
-/// Which of the operations of [`Function::of_f64`] an instruction is.
-fn operation_of_f64(mnemonic: &str, operands: &str) -> Option<usize> {
+/// Which of the operations of [`Function::of_cloth`] an instruction is.
+fn operation_of_cloth(mnemonic: &str, operands: &str) -> Option<usize> {
     let wide = operands.contains("%ymm");
-    let compares = mnemonic.starts_with("vcmp") && mnemonic.ends_with("pd");
+    let compares = mnemonic.starts_with("vcmp") && wide;
     match mnemonic {
         "vsqrtpd" if wide => Some(0),
         "vdivpd" if wide => Some(1),
-        _ if compares && wide => Some(2),
+        _ if compares && mnemonic.ends_with("pd") => Some(2),
+        _ if compares && mnemonic.ends_with("ps") => Some(4),
         "vsqrtsd" => Some(3),
         _ => None,
     }
@@ -75,8 +77,8 @@ fn functions(text: impl BufRead) -> BTreeMap<u64, Function> {
             function.slow.push(instruction.trim().to_owned());
         }
         let [narrow, wide] = divides(mnemonic, operands).map(usize::from);
-        if let Some(operation) = operation_of_f64(mnemonic, operands) {
-            function.of_f64[operation] += 1;
+        if let Some(operation) = operation_of_cloth(mnemonic, operands) {
+            function.of_cloth[operation] += 1;
         }
         function.narrow += narrow;
         function.wide += wide;
@@ -154,14 +156,15 @@ fn hot_loops_are_compiled_for_their_level() {
 }
 
 /// How many copies for AVX2 there are of the loops over springs' forces, over the cells of self-collision and over
-/// the springs that may be too long, each recognised by what only it computes with whole vectors of f64.
+/// the springs that may be too long, each recognised by what only it computes with whole vectors.
 fn cloth_loops(functions: &BTreeMap<u64, Function>) -> [usize; 3] {
     let copies = || functions.values().filter(|function| function.name.contains("vectorize_avx2"));
-    let forces = |copy: &&Function| copy.of_f64[0] >= 2 && copy.of_f64[1] >= 2;
-    let cells = |copy: &&Function| copy.of_f64[..2] == [0, 0] && copy.of_f64[2] >= 2 && copy.of_f64[3] >= 1;
+    let forces = |copy: &&Function| copy.of_cloth[0] >= 2 && copy.of_cloth[1] >= 2;
+    let cells =
+        |copy: &&Function| copy.of_cloth[..3] == [0; 3] && copy.of_cloth[3] >= 1 && copy.of_cloth[4] >= 1;
     let limit = |copy: &&Function| {
         let called = copy.calls.iter().filter_map(|address| functions.get(address));
-        copy.of_f64[2] >= 2 && called.into_iter().any(|called| called.name.contains("shorten"))
+        copy.of_cloth[2] >= 2 && called.into_iter().any(|called| called.name.contains("shorten"))
     };
     [copies().filter(forces).count(), copies().filter(cells).count(), copies().filter(limit).count()]
 }
