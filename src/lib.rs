@@ -34,6 +34,7 @@
 //!
 //! | step | module |
 //! |---|---|
+//! | pieces of work that threads take one after the other | `share` |
 //! | vector instructions and the numbers of the fragment stage | [`lanes`] |
 //! | scene file → validated scene → plan of what it needs | [`scene`] |
 //! | grid, springs, forces, stretch limit | [`cloth`] |
@@ -62,6 +63,7 @@ pub mod error;
 pub mod fence;
 pub mod bounded;
 pub mod math;
+mod share;
 pub mod lanes;
 pub mod scene;
 pub mod cloth;

@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench pictures` prints a table for one thread and one for two. A word after `--` chooses the
 //! rows that hold it, `--level=avx2` or `--level=baseline` allows no wider vectors, and `--test` only shows that
-//! it runs. The last column tells whether two tables are of the same pictures.
+//! it runs; `--plot=FILE` also draws how times grow, for `docs/speed.md`. The last column tells whether two tables are of the same pictures.
 
 #![expect(
     clippy::unwrap_used,
@@ -10,11 +10,12 @@
     reason = "a benchmark may fail, and its table is for the terminal"
 )]
 
+mod plot;
 #[path = "../../tests/support/repository.rs"]
 mod repository;
 mod rows;
 
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use drape::lanes::level::Level;
@@ -44,10 +45,17 @@ fn main() {
         let test = arguments.iter().any(|argument| argument == "--test");
         return table(threads, filter.map_or("", String::as_str), test);
     }
-    for threads in ["1", "2"] {
+    let tables = ["1", "2"].map(|threads| {
         let mut child = Command::new(std::env::current_exe().unwrap());
         child.args(&arguments).arg(format!("--threads={threads}")).env("RAYON_NUM_THREADS", threads);
-        assert!(child.status().unwrap().success());
+        let output = child.stderr(Stdio::inherit()).output().unwrap();
+        assert!(output.status.success());
+        let table = String::from_utf8(output.stdout).unwrap();
+        print!("{table}");
+        table
+    });
+    if let Some(path) = value("--plot=") {
+        std::fs::write(path, plot::plot(&tables)).unwrap();
     }
 }
 

@@ -146,6 +146,8 @@ pub trait Part: Lane<Part = Self> {
     fn store_rgba8(rgb: [Self; 3], out: &mut [u32]);
     /// A bit for each lane, the first one lowest, which is 1 where `keys` is `key`. There are [`Part::WIDTH`] keys.
     fn lanes_with(token: Self::Token, keys: &[u32], key: u32) -> u32;
+    /// A bit for each lane, the first one lowest, which is 1 where `self < other`.
+    fn lanes_less(self, other: Self) -> u32;
     /// `other` in the lanes where `keys` is `key`, else `self`. There are [`Part::WIDTH`] keys.
     fn replace(self, keys: &[u32], key: u32, other: Self) -> Self;
     /// As [`Part::to_whole`], but a number below -2³¹, from 2³¹ on, or NaN may become any number that is
@@ -179,8 +181,6 @@ pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, 
     fn select_equal(self, other: Self, then: Self, otherwise: Self) -> Self;
     /// Whether all lanes are at least 0 and less than `end`.
     fn within(self, end: i32) -> bool;
-    /// The number in all lanes, if it is the same.
-    fn same(self) -> Option<i32>;
     /// `f` of every lane.
     fn each(self, f: impl FnMut(i32) -> i32) -> Self;
     /// One lane.

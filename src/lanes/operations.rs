@@ -129,13 +129,16 @@ fn of_texels<P: Part>(token: P::Token) {
     }
 }
 
-/// A number is found to be the same in all lanes only where it is.
-fn of_wholes<P: Part>(token: P::Token) {
-    let same = P::splat(token, 3.0).to_whole();
-    assert_eq!(same.same(), Some(3));
-    for other in 0..P::WIDTH {
-        let differing = P::from_fn(token, |i| if i == other { 4.0 } else { 3.0 }).to_whole();
-        assert_eq!(differing.same(), (P::WIDTH == 1).then_some(4));
+/// Lanes that are less have their bit, and others, NaN among them, have not.
+fn of_comparisons<P: Part>(token: P::Token) {
+    let values = [-1.0, -0.0, 0.0, 1.0, f32::INFINITY, f32::NAN];
+    for (value, other) in values.into_iter().flat_map(|value| values.map(|other| (value, other))) {
+        for lane in 0..P::WIDTH {
+            let one = P::from_fn(token, |i| if i == lane { value } else { 7.0 });
+            let less = one.lanes_less(P::splat(token, other));
+            let rest = if 7.0 < other { P::ALL_LANES & !(1 << lane) } else { 0 };
+            assert_eq!(less, rest | u32::from(value < other) << lane, "{value} < {other} in lane {lane}");
+        }
     }
 }
 
@@ -144,7 +147,7 @@ fn all<S: FragmentLanes>(simd: S) {
     operations::<S::Lanes>(simd);
     of_parts::<<S::Lanes as Lane>::Part>(simd);
     of_texels::<<S::Lanes as Lane>::Part>(simd);
-    of_wholes::<<S::Lanes as Lane>::Part>(simd);
+    of_comparisons::<<S::Lanes as Lane>::Part>(simd);
 }
 
 #[test]
@@ -154,6 +157,7 @@ fn every_operation_is_that_of_plain_numbers_at_every_level() {
     of_parts::<f32>(());
     of_texels::<f32>(());
     of_texels::<F64>(());
-    of_wholes::<f32>(());
+    of_comparisons::<f32>(());
+    of_comparisons::<F64>(());
     of_parts::<F64>(());
 }

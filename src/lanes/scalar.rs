@@ -130,6 +130,15 @@ macro_rules! one_lane {
                 u32::from(keys[0] == key)
             }
             #[inline(always)]
+            fn lanes_less(self, other: Self) -> u32 {
+                u32::from({
+                    let $number = self;
+                    let one = $value;
+                    let $number = other;
+                    one < $value
+                })
+            }
+            #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {
                 if keys[0] == key { other } else { self }
             }
@@ -197,10 +206,6 @@ impl Whole for i32 {
     #[inline(always)]
     fn within(self, end: i32) -> bool {
         (0..end).contains(&self)
-    }
-    #[inline(always)]
-    fn same(self) -> Option<i32> {
-        Some(self)
     }
     #[inline(always)]
     fn each(self, mut f: impl FnMut(i32) -> i32) -> i32 {

@@ -94,10 +94,11 @@ macro_rules! vector {
             }
             #[inline(always)]
             fn store_rgba8([red, green, blue]: [Self; 3], out: &mut [u32]) {
-                // The addition rounds, and leaves the result in the low bits.
-                let red = (red * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
-                let green = (green * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
-                let blue = (blue * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>() & 0xFF;
+                // The addition rounds, and leaves the result in the low bits. What is in the top byte beside it is
+                // shifted out, or overwritten.
+                let red = (red * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>();
+                let green = (green * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>();
+                let blue = (blue * 255.0 + WHOLE_STEPS).bitcast::<$key<S>>();
                 let packed = red | green << 8 | blue << 16 | 255 << 24;
                 packed.store_slice(&mut out[..$width]);
             }
@@ -105,6 +106,11 @@ macro_rules! vector {
             #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
             fn lanes_with(token: S, keys: &[u32], key: u32) -> u32 {
                 $key::from_slice(token, &keys[..$width]).simd_eq($key::splat(token, key)).to_bitmask() as u32
+            }
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "at most 16 lanes")]
+            fn lanes_less(self, other: Self) -> u32 {
+                self.simd_lt(other).to_bitmask() as u32
             }
             #[inline(always)]
             fn replace(self, keys: &[u32], key: u32, other: Self) -> Self {
@@ -149,11 +155,6 @@ macro_rules! vector {
             #[inline(always)]
             fn within(self, end: i32) -> bool {
                 (self.simd_ge(0) & self.simd_lt(end)).all_true()
-            }
-            #[inline(always)]
-            fn same(self) -> Option<i32> {
-                let first = self[0];
-                self.simd_eq(first).all_true().then_some(first)
             }
             #[inline(always)]
             fn each(self, mut f: impl FnMut(i32) -> i32) -> Self {

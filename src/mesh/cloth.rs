@@ -1,11 +1,11 @@
 //! The mesh of the cloth: its points, two triangles a cell.
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::{BAND, Mesh, in_plane, index, round, set_grid_triangles, to_f32, unit_or};
 use crate::cloth::Points;
 use crate::scene::{Cloth, Needs, Vec3};
+use crate::share::share_out;
 
 /// Points that one thread takes at a time.
 const PIECE: usize = 4096;
@@ -27,7 +27,7 @@ impl Mesh {
     pub(crate) fn set_cloth(&mut self, cloth: &Cloth, points: &Points, needs: Needs) {
         let (w, h) = (cloth.num_width_points, cloth.num_height_points);
         self.positions.resize(points.len(), [0.0; 3]);
-        self.positions.par_chunks_mut(PIECE).enumerate().for_each(|(piece, positions)| {
+        share_out(self.positions.chunks_mut(PIECE).enumerate(), |(piece, positions)| {
             for (i, position) in (piece * PIECE..).zip(positions) {
                 *position = round(points.get(i));
             }
@@ -64,7 +64,7 @@ fn set_per_normal(
     h: usize,
     attribute: impl Fn(usize, Vec3) -> Vec3 + Sync,
 ) {
-    attributes.par_chunks_mut(w * BAND).enumerate().for_each(|(band, attributes)| {
+    share_out(attributes.chunks_mut(w * BAND).enumerate(), |(band, attributes)| {
         let first = band * BAND;
         let (mut above, mut below) = (crosses(w), crosses(w));
         if let Some(row) = first.checked_sub(1) {

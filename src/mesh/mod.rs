@@ -4,9 +4,9 @@
 //! computed: its array stays empty.
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use crate::scene::{Collider, Needs, Vec3};
+use crate::share::share_out;
 
 mod cloth;
 mod cuboid;
@@ -92,7 +92,7 @@ fn set_grid_triangles(
 ) {
     let cells = columns - 1;
     triangles.resize(2 * cells * (rows - 1), [0; 3]);
-    triangles.par_chunks_mut(2 * cells * BAND).enumerate().for_each(|(band, triangles)| {
+    share_out(triangles.chunks_mut(2 * cells * BAND).enumerate(), |(band, triangles)| {
         for (i, pair) in (band * BAND * cells..).zip(triangles.chunks_exact_mut(2)) {
             let a = index(i / cells * columns + i % cells);
             let c = a + index(columns);

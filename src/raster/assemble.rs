@@ -1,15 +1,14 @@
 //! Primitive assembly: clips and sets up primitives in chunks of fixed size, each on one thread.
 
-use rayon::prelude::*;
-
 use super::{
     bin::Bins,
     clip::{ClipVertex, FAR, clip_polygon, clip_segment},
-    handle::CHUNK,
+    handle::per_chunk,
     primitives::Primitives,
     setup::{Corner, Dropped, Line, Triangle, Viewport},
     vertex::VertexBuffer,
 };
+use crate::share::share_out;
 
 /// A chunk of a draw call's primitives, ready for the tiles.
 #[derive(Clone, Debug, Default)]
@@ -44,12 +43,12 @@ pub(super) fn assemble(
     chunks: &mut Vec<Chunk>,
 ) {
     let firsts = |(call, primitives): (usize, &Primitives<'_>)| {
-        (0..primitives.len()).step_by(CHUNK).map(move |first| (call, first))
+        (0..primitives.len()).step_by(per_chunk(primitives.len())).map(move |first| (call, first))
     };
     let starts: Vec<(usize, usize)> = calls.iter().enumerate().flat_map(firsts).collect();
     chunks.resize_with(starts.len(), Chunk::default);
-    chunks.par_iter_mut().zip(starts).for_each(|(chunk, (call, first))| {
-        let last = calls[call].len().min(first + CHUNK);
+    share_out(chunks.iter_mut().zip(starts), |(chunk, (call, first))| {
+        let last = calls[call].len().min(first + per_chunk(calls[call].len()));
         match calls[call] {
             Primitives::Triangles(all) => {
                 chunk.set_triangles((call, first), &all[first..last], &buffers[call], viewport);
@@ -84,7 +83,7 @@ impl Chunk {
         for (i, &corners) in triangles.iter().enumerate() {
             self.add_triangle(corners, number(first + i), vertices, viewport);
         }
-        self.bins = Bins::of(self.triangles.iter().map(|triangle| triangle.bounds));
+        self.bins.set(self.triangles.iter().map(|triangle| triangle.bounds));
     }
 
     /// Takes the lines `first..` of a mesh, and nothing else.
@@ -99,7 +98,7 @@ impl Chunk {
         for (i, &ends) in lines.iter().enumerate() {
             self.add_line(ends, number(first + i), vertices, viewport);
         }
-        self.bins = Bins::of(self.lines.iter().map(|line| line.bounds));
+        self.bins.set(self.lines.iter().map(|line| line.bounds));
     }
 
     fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {

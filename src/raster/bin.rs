@@ -15,42 +15,43 @@ pub(super) struct Bins {
 }
 
 impl Bins {
-    /// Sorts primitives with these bounds into the tiles that they touch, keeping their order.
-    pub(super) fn of(bounds: impl ExactSizeIterator<Item = Bounds> + Clone) -> Self {
-        let mut bins = Self::around(bounds.clone());
+    /// Sorts primitives with these bounds into the tiles that they touch, keeping their order. What the bins held
+    /// does not matter; their memory is used.
+    pub(super) fn set(&mut self, bounds: impl ExactSizeIterator<Item = Bounds> + Clone) {
+        self.set_around(bounds.clone());
         for bounds in bounds.clone() {
-            bins.touched(bounds, |bins, tile| bins.offsets[tile + 2] += 1);
+            self.touched(bounds, |bins, tile| bins.offsets[tile + 2] += 1);
         }
-        for tile in 2..bins.offsets.len() {
-            bins.offsets[tile] += bins.offsets[tile - 1];
+        for tile in 2..self.offsets.len() {
+            self.offsets[tile] += self.offsets[tile - 1];
         }
-        bins.entries = vec![0; bins.offsets.last().map_or(0, |&last| last as usize)];
+        self.entries.resize(self.offsets.last().map_or(0, |&last| last as usize), 0);
         for (i, bounds) in (0..).zip(bounds) {
             // Entry t + 1 runs from the start of tile t up to its end, where tile t + 1 starts.
-            bins.touched(bounds, |bins, tile| {
+            self.touched(bounds, |bins, tile| {
                 let next = &mut bins.offsets[tile + 1];
                 bins.entries[*next as usize] = i;
                 *next += 1;
             });
         }
-        bins
     }
 
     /// No primitives yet, in the rectangle of tiles that these bounds touch.
-    fn around(bounds: impl Iterator<Item = Bounds>) -> Self {
+    fn set_around(&mut self, bounds: impl ExactSizeIterator<Item = Bounds>) {
+        self.offsets.clear();
+        self.size = [0; 2];
+        if bounds.len() == 0 {
+            return;
+        }
         let (mut first, mut last) = ([u16::MAX; 2], [0; 2]);
-        let mut any = false;
         for Bounds { x, y } in bounds {
-            any = true;
             first = [first[0].min(x[0]), first[1].min(y[0])];
             last = [last[0].max(x[1]), last[1].max(y[1])];
         }
-        if !any {
-            return Self::default();
-        }
         let [first, last] = [first, last].map(tile_of);
-        let size = [last[0] + 1 - first[0], last[1] + 1 - first[1]];
-        Self { first, size, offsets: vec![0; size[0] * size[1] + 2], entries: Vec::new() }
+        self.first = first;
+        self.size = [last[0] + 1 - first[0], last[1] + 1 - first[1]];
+        self.offsets.resize(self.size[0] * self.size[1] + 2, 0);
     }
 
     /// Calls `visit` with the number of every tile that bounds touch.
@@ -92,9 +93,10 @@ mod tests {
 
     #[test]
     fn a_tile_lists_what_touches_it_in_order() {
-        for count in [0, 1, 2, 50, 500] {
+        let mut bins = Bins::default();
+        for count in [0, 1, 2, 500, 50, 0] {
             let all: Vec<Bounds> = (0..count).map(|i| any_bounds(1000 * count + i)).collect();
-            let bins = Bins::of(all.iter().copied());
+            bins.set(all.iter().copied());
             for (column, row) in (0..17).flat_map(|row| (0..17).map(move |column| (column, row))) {
                 let meets = |[first, last]: [u16; 2], tile: usize| {
                     usize::from(first) < (tile + 1) * TILE && usize::from(last) >= tile * TILE

@@ -2,7 +2,7 @@
 
 use super::{
     fragments::FragmentList,
-    interpolate::ShadeInput,
+    plane::ShadeInput,
     primitives::Primitives,
     program::{FragmentProgram, VertexProgram},
     setup::Viewport,

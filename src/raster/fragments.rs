@@ -44,10 +44,13 @@ pub(super) fn blocks() -> impl Iterator<Item = [u16; BLOCK_PIXELS]> {
 
 /// The fragments of one draw call in one tile. Every pixel and primitive is listed once; the
 /// lists are filled up to a multiple of [`MAX_LANES`] by repeating the last fragment.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct FragmentList {
     /// How many fragments are meant. The lists have room for more.
     pub(super) len: usize,
+    /// The triangle that covers the tile alone, if there is one: then nothing but colours is listed, for all pixels
+    /// row by row.
+    pub(super) whole: Option<Handle>,
     /// Number of the pixel in the tile.
     pub(super) pixels: Vec<u16>,
     /// Samples of the pixel in which the primitive is seen.
@@ -72,6 +75,7 @@ impl FragmentList {
     pub(super) fn clear(&mut self, samples: usize) {
         let room = TILE_PIXELS * samples + MAX_LANES;
         self.len = 0;
+        self.whole = None;
         self.pixels.resize(room, 0);
         self.weights.resize(room, 0);
         self.primitives.resize(room, 0);
@@ -84,14 +88,11 @@ impl FragmentList {
         self.packed.resize(alone, 0);
     }
 
-    /// Lists all pixels of a tile, row by row, for one primitive that covers them.
-    pub(super) fn list_whole(&mut self, primitive: Handle) {
-        self.clear(1);
+    /// Becomes that of a tile which a triangle covers alone. There must be room for the colours of its pixels.
+    pub(super) fn set_whole(&mut self, primitive: Handle) {
         self.len = TILE_PIXELS;
-        for (pixel, number) in self.pixels.iter_mut().zip(0..) {
-            *pixel = number;
-        }
-        self.primitives.fill(primitive);
+        self.whole = Some(primitive);
+        self.shares_pixels = false;
     }
 
     /// Lists the pixels of a tile with one sample whose visible primitive is in `handles`, block by block.

@@ -9,6 +9,7 @@ use super::{
     assemble::Chunk,
     depth::DepthPlane,
     handle::Handle,
+    scratch::Scratch,
     tiling::{TILE, TILE_PIXELS},
     vertex::VertexBuffer,
 };
@@ -25,6 +26,8 @@ pub struct Framebuffer {
     /// Of the picture before: nothing but memory, which the next one need not ask for again.
     pub(super) buffers: Vec<VertexBuffer>,
     pub(super) chunks: Vec<Chunk>,
+    /// The same, for each thread that draws tiles.
+    pub(super) scratch: Vec<Scratch>,
     /// The same, for the mesh of the cloth.
     pub(crate) mesh: Mesh,
 }
@@ -67,13 +70,13 @@ impl Tile {
         }
     }
 
-    /// Clears depth and visibility, for which there is `memory`. Colours wait until it is known where the
-    /// background is seen.
-    pub(super) fn begin(&mut self, memory: Vec<Handle>) {
+    /// Clears depth and visibility. Colours wait until it is known where the background is seen.
+    #[inline(always)]
+    pub(super) fn begin(&mut self) {
         self.depth.fill(1.0);
-        self.visible = memory;
-        self.visible.clear();
+        // Filled, and not emptied and made longer, which the compiler does not do in vectors.
         self.visible.resize(self.depth.len(), 0);
+        self.visible.fill(0);
         self.cleared = None;
     }
 }
@@ -103,6 +106,7 @@ impl Framebuffer {
             tiles,
             buffers: Vec::new(),
             chunks: Vec::new(),
+            scratch: Vec::new(),
             mesh: Mesh::default(),
         }
     }

@@ -1,7 +1,13 @@
 //! Handles: the numbers by which a visibility buffer names what is seen.
 
-/// Primitives of a mesh per chunk. Fixed, so that the work is cut alike for any number of threads.
-pub(super) const CHUNK: usize = 2048;
+/// Primitives of a mesh per chunk, at most.
+const CHUNK: usize = 2048;
+
+/// Primitives per chunk of a mesh that has so many: fewer where there are few, so that each thread has some chunks.
+/// The number of threads makes no difference.
+pub(super) fn per_chunk(primitives: usize) -> usize {
+    (primitives / 16).next_power_of_two().clamp(CHUNK / 8, CHUNK)
+}
 
 /// Bits of the index of a primitive in its chunk.
 const INDEX_BITS: u32 = 14;

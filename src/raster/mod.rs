@@ -15,26 +15,29 @@ mod bin;
 mod primitives;
 mod assemble;
 mod depth;
-mod framebuffer;
-mod triangle;
-mod line;
 mod fragments;
-mod interpolate;
-mod shade;
-mod draw_call;
 mod resolve;
 mod stats;
+mod scratch;
+mod framebuffer;
+mod edges;
+mod triangle;
+mod line;
+mod plane;
+mod interpolate;
+mod covering;
+mod shade;
+mod draw_call;
 mod timing;
 mod tile;
 
 use std::time::Instant;
 
-use rayon::prelude::*;
-
+use crate::share::share;
 use assemble::assemble;
 use setup::Viewport;
 use stats::TileStats;
-use tile::{Scratch, TileScene, draw_tile};
+use tile::{TileScene, draw_tile};
 use timing::{Clock, NoClock, WallClock};
 use vertex::VertexBuffer;
 
@@ -73,7 +76,7 @@ fn run(
 ) -> (Stats, Stages) {
     let viewport = Viewport::new(framebuffer.width, framebuffer.height, framebuffer.samples);
     let primitives: Vec<Primitives<'_>> = calls.iter().map(|call| call.primitives).collect();
-    let Framebuffer { tiles, buffers, chunks, .. } = framebuffer;
+    let Framebuffer { tiles, buffers, chunks, scratch, .. } = framebuffer;
     let started = clock.now();
 
     // Vertex stage: every vertex through its vertex program once, and into the window.
@@ -89,10 +92,12 @@ fn run(
 
     // Tiles: a visibility buffer from coverage and depth, the fragment stage over what is seen, resolve.
     let scene = TileScene { calls, buffers, chunks, viewport, background, ids };
-    let tiles: Vec<TileStats> = tiles
-        .par_iter_mut()
-        .map_init(Scratch::default, |scratch, tile| draw_tile(tile, &scene, scratch, clock))
-        .collect();
+    scratch.iter_mut().for_each(|scratch| scratch.stats = TileStats::default());
+    share(tiles.iter_mut(), scratch, |scratch, tile| {
+        let stats = draw_tile(tile, &scene, scratch, clock);
+        scratch.stats += stats;
+    });
+    let tiles: Vec<TileStats> = scratch.iter().map(|scratch| scratch.stats).collect();
 
     let stages = Stages::between([started, shaded, binned, clock.now()], &tiles);
     (Stats::of(&primitives, buffers, chunks, &tiles), stages)

@@ -5,7 +5,6 @@
 
 use super::{
     fragments::{BLOCK_PIXELS, FragmentList, blocks, is_block},
-    framebuffer::Tile,
     handle::Handle,
     tiling::{TILE, TILE_PIXELS},
 };
@@ -13,7 +12,7 @@ use crate::lanes::rgba8;
 
 /// What the samples of a tile's pixels see, where a pixel has several. Memory that is used for one tile after the
 /// other.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Pixels {
     /// Per pixel, what all of its samples see; 0 where they differ or see the background.
     pub(super) agreed: Vec<Handle>,
@@ -76,21 +75,21 @@ impl Pixels {
     }
 
     /// Stores the means of the pixels whose samples differ.
-    pub(super) fn resolve(&self, tile: &mut Tile) {
+    pub(super) fn resolve(&self, colors: &mut [u32]) {
         for (&pixel, sum) in self.mixed.iter().zip(&self.sums) {
             #[expect(clippy::cast_possible_truncation, reason = "colours are f32")]
             let mean = sum.map(|channel| channel as f32);
-            tile.color[usize::from(pixel)] = rgba8(mean);
+            colors[usize::from(pixel)] = rgba8(mean);
         }
     }
 }
 
 /// Stores the colours of a list whose pixels are all different.
 #[inline(always)]
-pub(super) fn write_colors(tile: &mut Tile, list: &FragmentList) {
+pub(super) fn write_colors(tile: &mut [u32], list: &FragmentList) {
     let colors = list.packed.as_chunks().0;
     for (pixels, colors) in list.filled().as_chunks().0.iter().zip(colors) {
-        write_block(&mut tile.color, pixels, colors);
+        write_block(tile, pixels, colors);
     }
 }
 

@@ -28,8 +28,19 @@ pub(super) struct WindowVertex {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Corner {
     pub(super) window: WindowVertex,
+    /// The position in 1/256 pixel, x right, y down, or [`NOWHERE`]: an `Option` would take a third as much again.
+    grid: [i32; 2],
+}
+
+/// Of a vertex that is NaN, infinite or beyond the grid.
+const NOWHERE: [i32; 2] = [i32::MIN; 2];
+
+impl Corner {
     /// The position in 1/256 pixel, x right, y down; absent if it is NaN, infinite or beyond the grid.
-    pub(super) snapped: Option<[i32; 2]>,
+    #[inline(always)]
+    pub(super) fn snapped(&self) -> Option<[i32; 2]> {
+        (self.grid[0] != NOWHERE[0]).then_some(self.grid)
+    }
 }
 
 /// A triangle ready for the tiles. Its corners are ordered so that its snapped area is positive
@@ -87,7 +98,7 @@ impl Viewport {
     #[inline(always)]
     pub(super) fn corner(&self, position: [f32; 4]) -> Corner {
         let window = self.window(position);
-        Corner { window, snapped: self.snap(window) }
+        Corner { window, grid: self.snap(window) }
     }
 
     /// The window position of a clip-space position, as GL defines it: r = 1/w, ndc = clip·r.
@@ -107,14 +118,14 @@ impl Viewport {
 
     /// The position on the snapping grid, rounded half to even; y turned down.
     #[inline(always)]
-    fn snap(&self, v: WindowVertex) -> Option<[i32; 2]> {
+    fn snap(&self, v: WindowVertex) -> [i32; 2] {
         let finite = v.z.is_finite() && v.r.is_finite();
         let grid = |c: f32| (c * SUBPIXELS as f32).round_ties_even();
         let (x, y) = (grid(v.x), grid(v.y));
         #[expect(clippy::cast_possible_truncation, reason = "only used where it is within the limit")]
         let snapped = || [x as i32, self.flip(y as i32)];
         let limit = SNAPPED_LIMIT as f32;
-        (finite && x.abs() <= limit && y.abs() <= limit).then(snapped)
+        if finite && x.abs() <= limit && y.abs() <= limit { snapped() } else { NOWHERE }
     }
 
     /// Turns a snapped y up into y down, and back.
@@ -125,7 +136,7 @@ impl Viewport {
 
     /// A corner moved to its position on the snapping grid.
     pub(super) fn on_grid(&self, corner: Corner) -> Corner {
-        let Some([x, y]) = corner.snapped else { return corner };
+        let Some([x, y]) = corner.snapped() else { return corner };
         let [x, y] = [x, self.flip(y)].map(|c| c as f32 / SUBPIXELS as f32);
         Corner { window: WindowVertex { x, y, ..corner.window }, ..corner }
     }
@@ -194,7 +205,7 @@ impl Viewport {
 
 /// The position of a corner on the snapping grid.
 fn snapped(corner: Corner) -> Result<[i32; 2], Dropped> {
-    corner.snapped.ok_or(Dropped::NonFinite)
+    corner.snapped().ok_or(Dropped::NonFinite)
 }
 
 /// Twice the signed area, in (1/256 pixel)², positive when the corners turn right with y down.

@@ -1,9 +1,12 @@
 //! Fragment stage: the fragment program over the interpolated varyings of a list of fragments.
 
 use super::{
-    fragments::FragmentList,
-    interpolate::{Interpolator, ShadeInput},
+    covering::Covering,
+    fragments::{BLOCK_PIXELS, FragmentList},
+    interpolate::Interpolator,
+    plane::ShadeInput,
     program::{FragmentProgram, Varyings},
+    tiling::TILE,
 };
 use crate::lanes::{FragmentLanes, Lane, MAX_PARTS, Part};
 
@@ -30,16 +33,31 @@ pub(super) fn shade<L: Lane, const N: usize>(
     let width = <L::Part as Part>::WIDTH;
     let mut interpolator = Interpolator::new(input);
     let mut varyings = [[L::Part::splat(token, 0.0); N]; MAX_PARTS];
-    for first in (0..list.filled().len()).step_by(width * L::PARTS) {
-        // A loop, and not as much code for each part.
-        for (i, varyings) in varyings.iter_mut().enumerate().take(L::PARTS) {
-            let part = first + i * width..first + (i + 1) * width;
-            *varyings = interpolator.varyings::<L::Part>(
-                token,
-                &list.pixels[part.clone()],
-                &list.primitives[part.clone()],
-                list.places(part),
-            );
+    let mut covering = None;
+    let columns = width * L::PARTS;
+    for group in 0..list.len.next_multiple_of(BLOCK_PIXELS).div_ceil(columns) {
+        let mut first = group * columns;
+        if let Some(primitive) = list.whole {
+            // As many columns as there are lanes, from the top row to the bottom row, then those beside them.
+            let (left, row) = (group / TILE * columns, group % TILE);
+            first = row * TILE + left;
+            if row == 0 {
+                covering = Some(Covering::of(token, input, primitive, left, L::PARTS));
+            }
+            if let Some(covering) = &covering {
+                covering.in_row(token, row, &mut varyings[..L::PARTS]);
+            }
+        } else {
+            // A loop, and not as much code for each part.
+            for (i, varyings) in varyings.iter_mut().enumerate().take(L::PARTS) {
+                let part = first + i * width..first + (i + 1) * width;
+                *varyings = interpolator.varyings::<L::Part>(
+                    token,
+                    &list.pixels[part.clone()],
+                    &list.primitives[part.clone()],
+                    list.places(part),
+                );
+            }
         }
         let color = stage(Varyings::from_numbers(
             #[inline(always)]

@@ -1,6 +1,6 @@
 //! What drawing a picture took, in counts.
 
-use std::time::Duration;
+use std::{ops::AddAssign, time::Duration};
 
 use serde::Serialize;
 
@@ -33,13 +33,22 @@ pub struct Stats {
     pub covered: u64,
 }
 
-/// What a tile took.
+/// What a tile took, or several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TileStats {
     pub(super) fragments: u64,
     pub(super) covered: u64,
     pub(super) raster: Duration,
     pub(super) shading: Duration,
+}
+
+impl AddAssign for TileStats {
+    fn add_assign(&mut self, other: Self) {
+        self.fragments += other.fragments;
+        self.covered += other.covered;
+        self.raster += other.raster;
+        self.shading += other.shading;
+    }
 }
 
 impl Stats {

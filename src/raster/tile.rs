@@ -4,7 +4,10 @@
 //! samples, else at the first that it covers, so that varyings are never taken from beyond its edge (OpenGL's
 //! `centroid`).
 
-use std::{mem::take, ops::Range};
+use std::{
+    mem::{swap, take},
+    ops::Range,
+};
 
 use fearless_simd::Simd;
 
@@ -14,9 +17,10 @@ use super::{
     fragments::FragmentList,
     framebuffer::Tile,
     handle::{Handle, pack, unpack},
-    interpolate::ShadeInput,
     line::draw_line,
-    resolve::{self, Pixels},
+    plane::ShadeInput,
+    resolve,
+    scratch::Scratch,
     setup::Viewport,
     stats::TileStats,
     tiling::{TILE, TILE_PIXELS},
@@ -37,17 +41,6 @@ pub(super) struct TileScene<'a> {
     pub(super) viewport: Viewport,
     pub(super) background: [f32; 3],
     pub(super) ids: bool,
-}
-
-/// Memory that a thread uses for one tile after the other.
-#[derive(Debug, Default)]
-pub(super) struct Scratch {
-    visible: Vec<Handle>,
-    /// Of pixels that see one primitive.
-    list: FragmentList,
-    /// Of pixels that may see several.
-    shared: FragmentList,
-    pixels: Pixels,
 }
 
 /// Primitives in a tile up to which it is asked whether one of them is alone.
@@ -78,12 +71,8 @@ pub(super) fn draw_tile(
     }
 
     // Visibility buffer: the nearest primitive of every sample.
-    tile.begin(take(&mut scratch.visible));
-    dispatch!(simd => find_visible(simd, tile, &chunks, scene));
-    // Not `contains`, which looks at one after the other.
-    if tile.visible.iter().fold(false, |any, &handle| any | (handle == 0)) {
-        tile.color.fill(background);
-    }
+    tile.visible = take(&mut scratch.visible);
+    dispatch!(simd => find_visible(simd, tile, &chunks, scene, background));
     let seen = clock.now();
 
     // Shading: the fragment program of every primitive that is seen, and resolve.
@@ -131,9 +120,11 @@ fn draw_whole(
     tile.plane = Some(covering(&corners, triangle.scale, tile, &scene.viewport)?);
     tile.cleared = None;
     let (handle, filled) = (pack(number, primitive), clock.now());
-    list.list_whole(handle);
+    list.set_whole(handle);
+    // Colours are put where they stay.
+    swap(&mut tile.color, &mut list.packed);
     shade_fragments(tile, chunk.call, scene, list);
-    tile.color.copy_from_slice(&list.packed[..TILE_PIXELS]);
+    swap(&mut tile.color, &mut list.packed);
     if scene.ids {
         tile.ids.resize(TILE_PIXELS, id(handle, scene));
     }
@@ -142,9 +133,17 @@ fn draw_whole(
     Some(TileStats { fragments: pixels, covered: pixels, raster, shading })
 }
 
-/// Depth and visibility of every primitive that touches the tile, in submission order.
+/// Depth and visibility of every primitive that touches the tile, in submission order, and the background where it is
+/// seen.
 #[inline(always)]
-fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], scene: &TileScene<'_>) {
+fn find_visible<S: FragmentLanes>(
+    simd: S,
+    tile: &mut Tile,
+    chunks: &[usize],
+    scene: &TileScene<'_>,
+    background: u32,
+) {
+    tile.begin();
     let viewport = &scene.viewport;
     for &number in chunks {
         let chunk = &scene.chunks[number];
@@ -160,6 +159,10 @@ fn find_visible<S: FragmentLanes>(simd: S, tile: &mut Tile, chunks: &[usize], sc
                 draw_line(tile, line, bounds, handle, viewport);
             }
         }
+    }
+    // Not `contains`, which looks at one after the other.
+    if tile.visible.iter().fold(false, |any, &handle| any | (handle == 0)) {
+        tile.color.fill(background);
     }
 }
 
@@ -183,7 +186,7 @@ fn shade_tile(
         dispatch_plain!(list.list_visible(visible, &handles));
         list.finish();
         shade_fragments(tile, call, scene, list);
-        dispatch_plain!(resolve::write_colors(tile, list));
+        dispatch_plain!(resolve::write_colors(&mut tile.color, list));
         alone += list.len as u64;
         if samples > 1 {
             shared.clear(samples);
@@ -197,7 +200,7 @@ fn shade_tile(
     if samples == 1 {
         return (alone, alone);
     }
-    pixels.resolve(tile);
+    pixels.resolve(&mut tile.color);
     (alone + together, alone + pixels.mixed.len() as u64)
 }
 

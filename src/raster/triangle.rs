@@ -1,11 +1,4 @@
 //! Coverage and depth of a triangle within one tile.
-//!
-//! An edge function is kept as three integers per tile: its value at the tile's first pixel and
-//! its steps per column and row. Positions are in 1/256 pixel and pixels are 256 of them apart, so
-//! E(i, j) = 256·(A·i + B·j) + c, and E ≥ 0 iff A·i + B·j + ⌊c/256⌋ ≥ 0: exact, in 32 bits.
-//!
-//! Fill rule: a sample on a left edge or on a lower horizontal edge (GL's bottom, y up) is inside,
-//! on any other edge outside, so a sample on a shared edge belongs to exactly one triangle.
 
 use fearless_simd::{
     Bytes, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x8, f64x4, i32x8, mask64x4, u32x8,
@@ -13,6 +6,7 @@ use fearless_simd::{
 
 use super::{
     depth::{DepthPlane, WIDTH, along_row, whole},
+    edges::{Edge, SmallEdges, tile_edges},
     framebuffer::Tile,
     handle::Handle,
     samples,
@@ -20,35 +14,6 @@ use super::{
     tiling::{SUBPIXELS, TILE, TILE_PIXELS},
 };
 use crate::lanes::{FragmentLanes, Lane};
-
-/// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Edge {
-    at: i32,
-    column: i32,
-    row: i32,
-}
-
-impl Edge {
-    /// The value at a pixel.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "x and y are below 64")]
-    fn value(&self, x: usize, y: usize) -> i32 {
-        self.at + self.column * x as i32 + self.row * y as i32
-    }
-
-    /// What the value grows by from the first of eight pixels of a row to each of them.
-    #[inline(always)]
-    fn steps<S: FragmentLanes>(&self, simd: S) -> i32x8<S> {
-        i32x8::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7]) * self.column
-    }
-
-    /// The most that it grows by.
-    #[inline(always)]
-    fn most(&self) -> i32 {
-        (7 * self.column).max(0)
-    }
-}
 
 /// The part of a tile that a primitive may touch: first and last column and row, inclusive.
 #[derive(Clone, Copy, Debug)]
@@ -83,14 +48,44 @@ pub(super) fn draw_triangle<S: FragmentLanes>(
     handle: Handle,
     viewport: &Viewport,
 ) {
+    let (Some(a), Some(b), Some(c)) = (corners[0].snapped(), corners[1].snapped(), corners[2].snapped())
+    else {
+        return;
+    };
     let depth = DepthPlane::of(corners, scale);
-    for (sample, position) in samples::positions(viewport.samples).iter().enumerate() {
-        let offset = [position[0] * (SUBPIXELS / 16), position[1] * (SUBPIXELS / 16)];
+    let offsets = samples::positions(viewport.samples).iter().zip((0..).step_by(TILE_PIXELS)).map(
+        #[inline(always)]
+        |(&[x, y], first)| ([x * (SUBPIXELS / 16), y * (SUBPIXELS / 16)], first),
+    );
+    // Two loops, because what only long edges need would be computed before one.
+    if let Some(small) = SmallEdges::of(simd, [a, b, c]) {
+        // In the box, where 32 bits suffice.
+        let origin = [bounds.x[0], bounds.y[0]];
+        let pixel = [grid(tile.left + origin[0]), grid(tile.top + origin[1])];
+        for (offset, first) in offsets {
+            let edges = small.at([pixel[0] + offset[0], pixel[1] + offset[1]]);
+            let sample = Sample { first, offset, edges, origin };
+            draw_sample(simd, tile, &sample, &depth, bounds, handle, viewport.height);
+        }
+        return;
+    }
+    for (offset, first) in offsets {
         if let Some(edges) = tile_edges(corners, tile, offset) {
-            let sample = Sample { first: sample * TILE_PIXELS, offset, edges };
+            let sample = Sample { first, offset, edges, origin: [0; 2] };
             draw_sample(simd, tile, &sample, &depth, bounds, handle, viewport.height);
         }
     }
+}
+
+/// The left or top side of a pixel in 1/256 pixel.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "pictures are at most 16384 wide"
+)]
+fn grid(pixel: usize) -> i32 {
+    pixel as i32 * SUBPIXELS
 }
 
 /// Whether a triangle may cover samples of a tile.
@@ -124,6 +119,17 @@ struct Sample {
     offset: [i32; 2],
     /// The triangle's edges there.
     edges: [Edge; 3],
+    /// The pixel of the tile from which they are counted.
+    origin: [usize; 2],
+}
+
+impl Sample {
+    /// How far a pixel is from that.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "they are less than 64")]
+    fn from_origin(&self, x: usize, y: usize) -> [i32; 2] {
+        [x as i32 - self.origin[0] as i32, y as i32 - self.origin[1] as i32]
+    }
 }
 
 /// One sample of every pixel in `bounds`, eight pixels of a row at a time.
@@ -131,43 +137,55 @@ struct Sample {
 fn draw_sample<S: FragmentLanes>(
     simd: S,
     tile: &mut Tile,
-    Sample { first, offset, edges }: &Sample,
+    sample: &Sample,
     plane: &DepthPlane,
     bounds: TileBounds,
     handle: Handle,
     height: usize,
 ) {
-    let dx = f64::from(offset[0]) / f64::from(SUBPIXELS);
-    let dy = f64::from(offset[1]) / f64::from(SUBPIXELS);
-    let steps = [edges[0].steps(simd), edges[1].steps(simd), edges[2].steps(simd)];
-    let most = [edges[0].most(), edges[1].most(), edges[2].most()];
+    let dx = f64::from(sample.offset[0]) / f64::from(SUBPIXELS);
+    let dy = f64::from(sample.offset[1]) / f64::from(SUBPIXELS);
+    let (left, top) = (tile.left, tile.top);
+    let rows = sample.first / TILE + bounds.y[0]..sample.first / TILE + bounds.y[1] + 1;
+    let (Some(depths), Some(visible)) =
+        (tile.depth.as_chunks_mut().0.get_mut(rows.clone()), tile.visible.as_chunks_mut().0.get_mut(rows))
+    else {
+        return;
+    };
+    let [e0, e1, e2] = &sample.edges;
+    let wide = bounds.x[1] - bounds.x[0] > 15;
     let mut start = bounds.x[0];
     while start <= bounds.x[1] {
         let x = start.min(TILE - WIDTH);
         start += WIDTH;
-        let along_row = along_row(simd, whole(tile.left + x) + dx - plane.origin[0], plane.column);
-        let mut below =
-            [edges[0].value(x, bounds.y[0]), edges[1].value(x, bounds.y[0]), edges[2].value(x, bounds.y[0])];
-        for y in bounds.y[0]..bounds.y[1] + 1 {
-            let at = below;
-            below = [at[0] + edges[0].row, at[1] + edges[1].row, at[2] + edges[2].row];
-            if bounds.x[1] - bounds.x[0] > 15 && (at[0] + most[0]) | (at[1] + most[1]) | (at[2] + most[2]) < 0
-            {
+        let along_row = along_row(simd, whole(left + x) + dx - plane.origin[0], plane.column);
+        let first = sample.from_origin(x, bounds.y[0]);
+        let mut next = [e0.values(simd, first), e1.values(simd, first), e2.values(simd, first)];
+        // Whole numbers and sixteenths: a row down is exactly one less.
+        let mut window_y = height as f64 - (whole(top + bounds.y[0]) + dy);
+        for (depths, visible) in depths.iter_mut().zip(visible.iter_mut()) {
+            let [v0, v1, v2] = next;
+            next = [v0 + e0.row, v1 + e1.row, v2 + e2.row];
+            let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
+            window_y -= 1.0;
+            // Negative where the pixel is outside of any edge.
+            let signs = v0 | v1 | v2;
+            if wide && signs.simd_lt(0).all_true() {
                 continue;
             }
-            let window_y = height as f64 - (whole(tile.top + y) + dy);
-            let row_depth = f64x4::splat(simd, plane.at + plane.row * (window_y - plane.origin[1]));
+            let row_depth = f64x4::splat(simd, row_depth);
             let z = (row_depth + along_row.0).narrow(row_depth + along_row.1);
-            // Negative where the pixel is outside of any edge.
-            let signs = (steps[0] + at[0]) | (steps[1] + at[1]) | (steps[2] + at[2]);
-            let pixels = first + y * TILE + x;
-            if let (Some(depths), Some(visible)) =
-                (tile.depth[pixels..].first_chunk_mut(), tile.visible[pixels..].first_chunk_mut())
-            {
+            if let (Some(depths), Some(visible)) = (eight(depths, x), eight(visible, x)) {
                 depth_test(signs, z, handle, depths, visible);
             }
         }
     }
+}
+
+/// Eight pixels of a row.
+#[inline(always)]
+fn eight<T>(row: &mut [T; TILE], x: usize) -> Option<&mut [T; WIDTH]> {
+    row[x..].first_chunk_mut()
 }
 
 /// Depth test LESS of eight pixels; those that pass keep the new depth and primitive.
@@ -203,7 +221,7 @@ pub(super) fn first_covered<S: Simd>(
     pixel: [usize; 2],
     samples: usize,
 ) -> Option<usize> {
-    let [a, b, c] = [corners[0].snapped?, corners[1].snapped?, corners[2].snapped?];
+    let [a, b, c] = [corners[0].snapped()?, corners[1].snapped()?, corners[2].snapped()?];
     let (mut covered, mut all) = (0, 0);
     for (first, four) in (0..).step_by(4).zip(samples::positions(samples).as_chunks::<4>().0) {
         let mut inside = mask64x4::splat(simd, true);
@@ -220,37 +238,4 @@ pub(super) fn first_covered<S: Simd>(
         all |= 0b1111 << first;
     }
     (covered != 0 && covered != all).then(|| covered.trailing_zeros() as usize)
-}
-
-/// The triangle's edges over a tile for a sample at `offset`; `None` if the tile is outside of one.
-#[inline(always)]
-fn tile_edges(corners: &[Corner; 3], tile: &Tile, offset: [i32; 2]) -> Option<[Edge; 3]> {
-    let (a, b, c) = (corners[0].snapped?, corners[1].snapped?, corners[2].snapped?);
-    Some([tile_edge(a, b, tile, offset)?, tile_edge(b, c, tile, offset)?, tile_edge(c, a, tile, offset)?])
-}
-
-/// The edge from `from` to `to` over a tile; `None` if the whole tile is outside.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_possible_wrap,
-    reason = "an edge that crosses the tile is below 127 · 2^24 in it"
-)]
-#[inline(always)]
-fn tile_edge(from: [i32; 2], to: [i32; 2], tile: &Tile, offset: [i32; 2]) -> Option<Edge> {
-    let (column, row) = (from[1] - to[1], to[0] - from[0]);
-    let inclusive = column > 0 || (column == 0 && row < 0);
-    let first = |start: usize, axis: usize| {
-        start as i64 * i64::from(SUBPIXELS) + i64::from(offset[axis]) - i64::from(from[axis])
-    };
-    let value = i64::from(column) * first(tile.left, 0) + i64::from(row) * first(tile.top, 1);
-    let at = (value - i64::from(!inclusive)) >> SUBPIXELS.trailing_zeros();
-    let last = TILE as i64 - 1;
-    let (columns, rows) = (i64::from(column) * last, i64::from(row) * last);
-    if at + columns.max(0) + rows.max(0) < 0 {
-        return None;
-    }
-    if at + columns.min(0) + rows.min(0) >= 0 {
-        return Some(Edge::default());
-    }
-    Some(Edge { at: at as i32, column, row })
 }

@@ -1,13 +1,11 @@
 //! Vertex stage: every vertex of a mesh through the vertex program once.
 
-use rayon::prelude::*;
-
 use super::{
     clip,
     program::{Varyings, VertexProgram},
     setup::{Corner, Viewport},
 };
-use crate::lanes::level::dispatch_plain;
+use crate::{lanes::level::dispatch_plain, share::share_out};
 
 /// What the vertex stage puts out.
 #[derive(Clone, Debug, Default)]
@@ -53,9 +51,9 @@ impl VertexBuffer {
         self.corners.resize(count, Corner::default());
         self.outside.resize(count, 0);
         self.varyings.resize(count * stride, 0.0);
-        let shaded = self.positions.par_chunks_mut(GROUP).zip(self.varyings.par_chunks_mut(GROUP * stride));
-        let placed = self.corners.par_chunks_mut(GROUP).zip(self.outside.par_chunks_mut(GROUP));
-        shaded.zip(placed).enumerate().for_each(|(group, ((positions, varyings), (corners, outside)))| {
+        let shaded = self.positions.chunks_mut(GROUP).zip(self.varyings.chunks_mut(GROUP * stride));
+        let placed = self.corners.chunks_mut(GROUP).zip(self.outside.chunks_mut(GROUP));
+        share_out(shaded.zip(placed).enumerate(), |(group, ((positions, varyings), (corners, outside)))| {
             let vertices = positions.iter_mut().zip(varyings.chunks_exact_mut(stride));
             for (vertex, (position, varyings)) in (group * GROUP..).zip(vertices) {
                 let output = program(&attributes(vertex));

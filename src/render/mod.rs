@@ -126,21 +126,18 @@ impl Renderer {
         })
     }
 
-    /// Hands the draw calls to `draw`, on a thread of the pool: parallel work that starts there starts at once,
-    /// while any other thread hands it over, sleeps and is woken each time.
-    fn draw_with<R: Send>(
+    /// Hands the draw calls to `draw`.
+    fn draw_with<R>(
         &self,
         framebuffer: &mut Framebuffer,
         points: &Points,
         options: &Options,
-        draw: impl FnOnce(&mut Framebuffer, &[DrawCall<'_>]) -> R + Send,
+        draw: impl FnOnce(&mut Framebuffer, &[DrawCall<'_>]) -> R,
     ) -> R {
-        rayon::scope(|_| {
-            let objects = self.objects(points, options, take(&mut framebuffer.mesh));
-            let result = draw(framebuffer, &self.calls(&objects, options));
-            framebuffer.mesh = cloth_mesh(objects);
-            result
-        })
+        let objects = self.objects(points, options, take(&mut framebuffer.mesh));
+        let result = draw(framebuffer, &self.calls(&objects, options));
+        framebuffer.mesh = cloth_mesh(objects);
+        result
     }
 
     /// What is drawn, with the cloth at `points`, whose mesh takes the `memory` of another.

@@ -26,15 +26,14 @@ pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Ve
 /// `texture_cube` of one part.
 #[inline(always)]
 fn cube_texel<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
-    let (face, s, t) = cube_face(direction);
     let size = [sampler.cubemap.size(); 2];
     if sampler.filter == Filter::Bilinear
-        && let Some(first) = face.whole_if_small().same()
-        && let Some((places, down, weights)) = inside(size, [s, t])
+        && let Some((face, coordinates)) = one_face(direction)
+        && let Some((places, down, weights)) = inside(size, coordinates)
     {
-        let face = &sampler.cubemap.faces()[first.cast_unsigned() as usize];
-        return P::bilinear(face.texels(), places, down, weights);
+        return P::bilinear(sampler.cubemap.faces()[face].texels(), places, down, weights);
     }
+    let (face, s, t) = cube_face(direction);
     if sampler.seamless && sampler.filter == Filter::Bilinear {
         return seamless(sampler.cubemap, face, [s, t]);
     }
@@ -62,6 +61,39 @@ impl<'a> Faces<'a> {
         }
         Self(texels)
     }
+}
+
+/// What [`cube_face`] gives if all lanes look at the same face, and no direction is near zero or NaN, without selecting
+/// lane by lane.
+#[inline(always)]
+fn one_face<P: Part>(r: Vec3<P>) -> Option<(usize, [P; 2])> {
+    // Of three lengths that add up to more, the square of the longest is not 0.
+    const TINY: f32 = 1e-15;
+    let (ax, ay, az) = (r.x.abs(), r.y.abs(), r.z.abs());
+    let of_x_and_y = ax.max(ay);
+    let (x_is_longer, z_is_shorter) = (ay.lanes_less(ax), az.lanes_less(of_x_and_y));
+    let (axis, component, length) = match (z_is_shorter, x_is_longer) {
+        (0, _) => (2, r.z, az),
+        (all, 0) if all == P::ALL_LANES => (1, r.y, ay),
+        (all, x) if all == P::ALL_LANES && x == all => (0, r.x, ax),
+        _ => return None,
+    };
+    let negative = component.lanes_less(component.all(0.0));
+    if length.all(TINY).lanes_less(ax + ay + az) != P::ALL_LANES
+        || (negative != 0 && negative != P::ALL_LANES)
+    {
+        return None;
+    }
+    let (sc, tc) = match (axis, negative) {
+        (0, 0) => (-r.z, -r.y),
+        (0, _) => (r.z, -r.y),
+        (1, 0) => (r.x, r.z),
+        (1, _) => (r.x, -r.z),
+        (_, 0) => (r.x, -r.y),
+        _ => (-r.x, -r.y),
+    };
+    let coordinate = |c: P| (c / length + 1.0) * 0.5;
+    Some((2 * axis + usize::from(negative != 0), [coordinate(sc), coordinate(tc)]))
 }
 
 /// Face number (posx, negx, posy, negy, posz, negz) and coordinates (s, t) in 0..=1 of a direction.
