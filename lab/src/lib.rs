@@ -15,6 +15,7 @@ pub mod run;
 pub mod store;
 pub mod page;
 pub mod sweep;
+pub mod accuracy;
 pub mod study;
 pub mod horizon;
 pub mod choose;

@@ -101,6 +101,10 @@ fn the_summary_says_what_was_run_and_how_wrong_it_is() {
     assert!(plain["error"].is_null());
     let both = scratch.run(&[&arguments[..], &["--positions", "-"]].concat());
     assert_eq!(both.code, Some(2), "the summary has no place: {}", both.stderr);
+    // A run that goes on from a state has the error of the whole way.
+    scratch.succeed(&["simulate", "small.json", "--frames", "6", "--save-state", "six"]);
+    let on = scratch.json(&[&arguments[..], &["--from-state", "six", "--json"]].concat());
+    assert_eq!((&on["error"], &on["state_hash"]), (error, &summary["state_hash"]));
     // What there is not is not told.
     fs::write(scratch.path("bare.json"), "{}").unwrap();
     let bare = String::from_utf8(scratch.succeed(&["simulate", "bare.json", "--frames", "3"])).unwrap();

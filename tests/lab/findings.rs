@@ -4,11 +4,11 @@
 
 use drape::scene::Overrides;
 use drape::texture_source::TextureSource;
+use drape_lab::accuracy::source::Source;
 use drape_lab::store::Store;
 use drape_lab::study::extent::Extent;
 use drape_lab::study::reference::Difference;
 use drape_lab::study::runs::Measured;
-use drape_lab::study::source::Source;
 use drape_lab::study::{self, PanelStudy};
 
 /// A row of the table: its number, then the cells as they stand there.

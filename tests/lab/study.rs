@@ -8,13 +8,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Overrides, SelfCollision};
 use drape::texture_source::TextureSource;
+use drape_lab::accuracy::source::Source;
 use drape_lab::page::live::Live;
 use drape_lab::store::Store;
 use drape_lab::study::extent::Extent;
 use drape_lab::study::matrix::{Cell, panels};
 use drape_lab::study::method::METHODS;
 use drape_lab::study::runs::Outcome;
-use drape_lab::study::source::Source;
 use drape_lab::study::{self, Cost, Results, Study};
 
 const SCENE: &str = r#"{"cloth": {"width": 1, "height": 1, "num_width_points": 6,

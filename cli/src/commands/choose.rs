@@ -10,9 +10,10 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
-use drape_lab::choose::goal::{Measure, Tolerance};
+use drape_lab::accuracy::measure::Measure;
+use drape_lab::accuracy::source::Source;
+use drape_lab::choose::goal::Tolerance;
 use drape_lab::choose::{self, Answer};
-use drape_lab::study::source::Source;
 
 /// The arguments of `choose`.
 #[derive(clap::Args)]

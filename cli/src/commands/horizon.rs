@@ -11,8 +11,9 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
+use drape_lab::accuracy::measure::Measure;
+use drape_lab::accuracy::source::Source;
 use drape_lab::horizon::{self, Horizon};
-use drape_lab::study::source::Source;
 
 /// The arguments of `horizon`.
 #[derive(clap::Args)]
@@ -48,7 +49,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         progress.add(1);
         session.stop.check()
     };
-    let horizon = Horizon::of(&source, &[], frames, &watch)?;
+    let horizon = Horizon::of(&source, &[], frames, Measure::Max, &watch)?;
     drop(progress);
     if let Some(path) = &args.page {
         let name = args.scene.path.file_name().unwrap_or_default().to_string_lossy();

@@ -19,9 +19,9 @@ use crate::session::files::target::Content;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Scene;
 use drape::simulation::{Simulation, Timings};
+use drape_lab::accuracy::source::Source;
 use drape_lab::choose::{OwnError, own_error};
 use drape_lab::run::table::Table;
-use drape_lab::study::source::Source;
 
 /// The arguments of `simulate`.
 #[derive(clap::Args)]
@@ -48,8 +48,9 @@ pub(crate) struct Args {
     /// Add to the summary the energy that each phase added or removed; a step takes two to four times as long
     #[arg(long, conflicts_with_all = ["bench", "hash"])]
     ledger: bool,
-    /// Add to the summary how wrong the positions are, estimated from one more run with twice the steps
-    #[arg(long, conflicts_with_all = ["bench", "hash", "from_state", "allow_unstable"])]
+    /// Add to the summary how wrong the positions are, estimated from one more run with twice the steps; with --from-state
+    /// too that run is one from the start
+    #[arg(long, conflicts_with_all = ["bench", "hash", "allow_unstable"])]
     error: bool,
     /// Print the number and the state hash of each frame instead of the summary
     #[arg(long)]

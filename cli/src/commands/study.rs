@@ -13,9 +13,9 @@ use crate::session::progress::Tally;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::texture_source::TextureSource;
+use drape_lab::accuracy::source::Source;
 use drape_lab::printable;
 use drape_lab::study::extent::{Extent, KEPT};
-use drape_lab::study::source::Source;
 use drape_lab::study::{self, Results};
 
 /// The latest moment of a study, in tenths of a second.

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::goal::Measure;
 use super::level::{Level, Settings};
+use crate::accuracy::measure::Measure;
 use drape::scene::Integrator;
 
 /// The answer to a question of accuracy.
@@ -15,8 +15,10 @@ pub struct Answer {
     pub choice: Option<Choice>,
     /// Everything that was run.
     pub candidates: Vec<Candidate>,
+    /// Springs visited in the whole search; [`Answer::model`] takes more runs.
+    pub springs_visited: u64,
     /// The time from which on positions cannot be told to what was asked, because copies that differ by rounding
-    /// have parted that far, in seconds; `None` if they have not by the moment.
+    /// have parted that far, in seconds; `None` if they have not by the moment, as far as was looked.
     pub horizon: Option<f64>,
     /// How far the scene as it is written is from the limit, and which of its settings have none.
     pub model: Vec<Model>,

@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 use super::answer::{Answer, Choice};
-use super::goal::Measure;
 use super::ladder::Ladder;
 use super::level::{Level, Outcome, Runner, Settings};
-use super::others::{self, Trial, fewest};
-use super::{candidates, model, other_integrators};
-use crate::study::source::Source;
+use super::others::{self, Trial};
+use super::{candidates, model};
+use crate::accuracy::measure::Measure;
+use crate::accuracy::source::Source;
 use drape::error::{Error, Kind, Result};
 use drape::scene::Integrator;
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ pub fn within_budget(
 ) -> Result<Answer> {
     let scene = source.scene(&[])?;
     super::check_moment(frames)?;
-    let runner = Runner { source, frames, measure, watch };
+    let runner = Runner::new(source, frames, measure, watch);
     let mut ladder = Ladder::start(&runner, &scene)?;
     let first = ladder.levels[0].clone();
     let steps = affordable(&first, budget);
@@ -50,15 +50,12 @@ pub fn within_budget(
     let Some(limit) = ladder.limit.clone() else {
         return Err(Error::new(Kind::Internal, "four runs give no limit"));
     };
-    let found: Vec<Trial> = other_integrators()
+    let found: Vec<Trial> = others::integrators()
         .filter_map(|integrator| largest(&runner, integrator, &ladder, budget).transpose())
         .collect::<Result<_>>()?;
     let of_verlet =
         ladder.levels.iter().chain(&ladder.tried).map(|level| (ladder.settings(level.steps), level.clone()));
-    let of_others = found.iter().filter_map(|Trial { settings, outcome }| match outcome {
-        Outcome::Done(level) => Some((settings.clone(), level.clone())),
-        _ => None,
-    });
+    let of_others = found.iter().filter_map(|trial| Some((trial.settings.clone(), trial.level()?.clone())));
     let mut in_time: Vec<(Settings, Level)> =
         of_verlet.chain(of_others).filter(|(_, level)| level.time <= budget).collect();
     let error = |level: &Level| ladder.error(level, &limit);
@@ -66,7 +63,8 @@ pub fn within_budget(
     let Some((settings, level)) = in_time.first() else { return Ok(too_short(&runner, &ladder, budget)) };
     Ok(Answer {
         choice: Some(Choice::new(settings, level, [error(level), limit.uncertainty])),
-        candidates: candidates(&ladder, Some(&limit), std::slice::from_ref(&found)),
+        candidates: candidates(&ladder, Some(&limit), &found),
+        springs_visited: runner.springs_visited(),
         horizon: None,
         model: model(&runner, &scene, &ladder, &limit)?,
         reason: None,
@@ -90,7 +88,7 @@ fn largest(
     budget: Duration,
 ) -> Result<Option<Trial>> {
     let mut settings = others::settings(integrator, &ladder.cures);
-    settings.steps = fewest(runner, &settings)?;
+    settings.steps = runner.fewest(&settings)?;
     let Outcome::Done(first) = runner.run_for(&settings, budget)? else { return Ok(None) };
     let steps = affordable(&first, budget);
     if steps > settings.steps {
@@ -115,6 +113,7 @@ fn too_short(runner: &Runner<'_>, ladder: &Ladder, budget: Duration) -> Answer {
     Answer {
         choice: None,
         candidates: candidates(ladder, None, &[]),
+        springs_visited: runner.springs_visited(),
         horizon: None,
         model: Vec::new(),
         reason: Some(reason),

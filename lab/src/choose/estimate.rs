@@ -12,8 +12,12 @@
 //! the last difference and half of the one before it, which a method of first order would show. Where the lengths of the
 //! last three differences fall steadily, each to [`STEADY`] of the one before or less, the uncertainty is [`LESS_DOUBT`]
 //! times that: what is left of such a series is at most 1.5 times its last term.
+//!
+//! Fewer runs show no order, but where they agree far better than is asked for, they need not: the uncertainty is
+//! [`OF_THREE`] times the last difference of three rough runs, as above, and of two runs [`OF_TWO`] times their difference,
+//! or [`OF_TWO_ROUGH`] times.
 
-use super::goal::{Measure, Shape, difference};
+use crate::accuracy::measure::{Measure, Shape, difference};
 use drape::math;
 
 /// The lowest and highest order that is believed: contact and the stretch limit are of first order, Verlet's
@@ -32,6 +36,15 @@ const DOUBT: f64 = 3.0;
 
 /// The same where the differences fall steadily.
 const LESS_DOUBT: f64 = 2.0;
+
+/// Uncertainty over difference of three runs where four have to show an order.
+const OF_THREE: f64 = 10.0;
+
+/// Uncertainty over the difference of two runs in which only springs moved the points.
+const OF_TWO: f64 = 10.0;
+
+/// Uncertainty over the difference of two other runs.
+const OF_TWO_ROUGH: f64 = 30.0;
 
 /// The most that a difference is of the one before it where they fall steadily.
 const STEADY: f64 = 0.6;
@@ -56,6 +69,14 @@ impl Limit {
         let (earlier, last) = match *states {
             [.., x0, x1, x2, x3] if rough => (Some([x0, x1, x2]), [x1, x2, x3]),
             [.., x1, x2, x3] if !rough => (None, [x1, x2, x3]),
+            [.., x1, x2, x3] => {
+                let [first, second] = [measure.distance(x1, x2), measure.distance(x2, x3)];
+                return Some(Self::agreed(x3, OF_THREE * second.max(0.5 * first), measure));
+            }
+            [x1, x2] => {
+                let part = if rough { OF_TWO_ROUGH } else { OF_TWO };
+                return Some(Self::agreed(x2, part * measure.distance(x1, x2), measure));
+            }
             _ => return None,
         };
         let [x1, x2, x3] = last;
@@ -66,8 +87,7 @@ impl Limit {
             let before = states.iter().rev().nth(3).map(|x0| measure.distance(x0, x1));
             let is_steady = before.is_some_and(|before| first <= STEADY * before && second <= STEADY * first);
             let doubt = if is_steady { LESS_DOUBT } else { DOUBT };
-            let uncertainty = doubt * second.max(0.5 * first);
-            return Some(Self { order: None, shape: x3.clone(), measure, uncertainty });
+            return Some(Self::agreed(x3, doubt * second.max(0.5 * first), measure));
         };
         let ratio = math::pow(2.0, order);
         let combined = |f: &dyn Fn(f64, f64) -> f64, a: &Shape, b: &Shape| -> Shape {
@@ -78,6 +98,11 @@ impl Limit {
         let part = if rough { 1.0 } else { SMOOTH };
         let uncertainty = (measure.size(&against) + part * measure.size(&second)) / (ratio - 1.0);
         Some(Self { order: Some(order), shape, measure, uncertainty })
+    }
+
+    /// The last run stands for the limit.
+    fn agreed(last: &Shape, uncertainty: f64, measure: Measure) -> Self {
+        Self { order: None, shape: last.clone(), measure, uncertainty }
     }
 }
 
@@ -126,10 +151,16 @@ mod tests {
     }
 
     #[test]
-    fn a_rough_limit_takes_four_runs() {
+    fn fewer_runs_show_no_order_and_leave_more_doubt() {
         let runs = runs(1, 0.0);
-        assert!(limit(&runs[..2], false, Measure::Rms).is_none());
-        assert!(limit(&runs[..3], true, Measure::Rms).is_none());
+        assert!(limit(&runs[..1], false, Measure::Max).is_none());
+        let [first, second] = [0, 1].map(|i| Measure::Max.distance(&runs[i], &runs[i + 1]));
+        for (of, rough, last, doubt) in
+            [(2, false, 1, 10.0 * first), (2, true, 1, 30.0 * first), (3, true, 2, 10.0 * second)]
+        {
+            let limit = limit(&runs[..of], rough, Measure::Max).unwrap();
+            assert_eq!((limit.order, &limit.shape, limit.uncertainty), (None, &runs[last], doubt));
+        }
     }
 
     #[test]

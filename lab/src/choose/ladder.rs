@@ -3,9 +3,9 @@
 //! the same work at any stiffness that was tried (`docs/findings.md`).
 
 use super::estimate::Limit;
-use super::goal::{Shape, Tolerance};
+use super::goal::Tolerance;
 use super::level::{Level, Outcome, Runner, Settings};
-use super::others::fewest;
+use crate::accuracy::measure::Shape;
 use drape::error::{Error, Kind, Result};
 use drape::math;
 use drape::scene::{Damping, Integrator, Scene};
@@ -19,6 +19,19 @@ const SHRINKS: f64 = 0.75;
 
 /// How far beyond its last level the power law of a ladder is believed, as a factor on the steps.
 const BEYOND: f64 = 1.5;
+
+/// The part of a level's steps below which fewer are tried: a run of its own has to save a third.
+const WORTH: f64 = 2.0 / 3.0;
+
+/// How many times nearer to the limit than Verlet's scheme with as many steps another is taken to be at best, where the
+/// error is that of what acts once a step. Among random scenes the nearest was at 0.9 of the distance (`docs/choose.md`).
+const BETTER: f64 = 1.5;
+
+/// The highest order that is seen where what acts once a step decides.
+const ONCE_A_STEP: f64 = 1.75;
+
+/// The part of what is asked for by which two runs may differ that are far nearer to each other.
+const FAR_NEARER: f64 = 0.1;
 
 /// Most steps a frame that a ladder begins with.
 const MOST_STEPS: u32 = 1 << 20;
@@ -90,7 +103,29 @@ impl Ladder {
         )]
         let predicted = (f64::from(last.steps) * ratio).ceil() as u32;
         let predicted = predicted.max(self.levels[0].steps);
-        Some(of_levels.map_or(predicted, |steps| steps.min(predicted)))
+        let is_worth = |steps: u32| f64::from(predicted) <= WORTH * f64::from(steps);
+        Some(of_levels.filter(|&steps| !is_worth(steps)).unwrap_or(predicted))
+    }
+
+    /// Whether no integrator can be within with `steps` steps a frame. What acts once a step, contact, self-collision
+    /// and the stretch limit, does so under all of them: where their error decides, which shows as a low order or none,
+    /// no integrator is much nearer to the limit than Verlet's scheme with as many steps.
+    pub(super) fn is_hopeless(&self, steps: u32, limit: &Limit, tolerance: Tolerance) -> bool {
+        let rough = self.levels.iter().any(|level| level.rough);
+        let decides = rough && self.levels.len() > 3 && limit.order.is_none_or(|order| order < ONCE_A_STEP);
+        let level = self.levels.iter().find(|level| level.steps >= steps);
+        let room = tolerance.value - limit.uncertainty;
+        decides && level.is_some_and(|level| self.error(level, limit) > BETTER * room)
+    }
+
+    /// Whether the last two levels are far nearer to each other than is asked for, or an order is seen. Then copies that
+    /// differ by rounding are nearer too: their motion parts as that of runs which differ by their step, from a smaller
+    /// difference.
+    pub(super) fn is_told(&self, limit: &Limit, tolerance: Tolerance) -> bool {
+        let agree = |pair: &[Level]| {
+            tolerance.measure.distance(&pair[0].shape, &pair[1].shape) <= FAR_NEARER * tolerance.value
+        };
+        limit.order.is_some() || self.levels.windows(2).next_back().is_some_and(agree)
     }
 
     /// The first level alone.
@@ -103,7 +138,7 @@ impl Ladder {
                 "the scene has no cloth, so every step gives the same answer",
             ));
         }
-        let steps = fewest(runner, &settings)?;
+        let steps = runner.fewest(&settings)?;
         if steps > MOST_STEPS {
             let message =
                 format!("Verlet's scheme needs {steps} steps a frame, more than can be tried ({MOST_STEPS})");

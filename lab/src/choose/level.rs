@@ -1,9 +1,13 @@
 //! One run of the scene to the moment, with other settings.
 
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
-use super::goal::{Measure, Shape};
-use crate::study::source::Source;
+use crate::accuracy::measure::{Measure, Shape};
+use crate::accuracy::run::Run;
+use crate::accuracy::source::Source;
+use crate::horizon::Horizon;
+use drape::diagnostics::stability::Stability;
 use drape::error::{Kind, Result};
 use drape::scene::{Integrator, Scene};
 use drape::simulation::Simulation;
@@ -16,6 +20,8 @@ pub(super) struct Runner<'a> {
     pub(super) measure: Measure,
     /// Called after each frame; its error ends the run.
     pub(super) watch: &'a (dyn Fn() -> Result<()> + Sync),
+    /// Springs visited by all runs so far.
+    visited: AtomicU64,
 }
 
 /// What is run: an integrator and its steps, with further changes of the scene.
@@ -50,6 +56,8 @@ pub(super) enum Outcome {
     Unstable,
     /// More springs were visited, or more time passed, than allowed; so many springs by then.
     TooDear(u64),
+    /// It was not run, as it cannot be within: [`super::ladder::Ladder::is_hopeless`].
+    Hopeless,
 }
 
 impl Settings {
@@ -62,10 +70,42 @@ impl Settings {
     }
 }
 
-impl Runner<'_> {
+impl<'a> Runner<'a> {
+    /// Runs `source` to frame `frames`.
+    pub(super) fn new(
+        source: &'a Source,
+        frames: u64,
+        measure: Measure,
+        watch: &'a (dyn Fn() -> Result<()> + Sync),
+    ) -> Self {
+        Self { source, frames, measure, watch, visited: AtomicU64::new(0) }
+    }
+
+    /// Springs visited by all runs so far.
+    pub(super) fn springs_visited(&self) -> u64 {
+        self.visited.load(Ordering::Relaxed)
+    }
+
+    /// Runs the scene with `settings` beside copies that differ by rounding.
+    pub(super) fn horizon(&self, settings: &Settings) -> Result<Horizon> {
+        let horizon = Horizon::of(self.source, &settings.sets(), self.frames, self.measure, self.watch)?;
+        self.visited.fetch_add(horizon.springs_visited, Ordering::Relaxed);
+        Ok(horizon)
+    }
+
+    /// The fewest steps a frame at which the integrator of `settings` is stable in any shape of the cloth.
+    pub(super) fn fewest(&self, settings: &Settings) -> Result<u32> {
+        let scene = self.source.scene(&settings.sets())?;
+        let Some(cloth) = &scene.cloth else { return Ok(1) };
+        let stability = Stability::of_bounded(cloth, &scene.sim)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at least 1; saturates")]
+        let fewest = stability.map_or(1.0, |stability| stability.fewest_steps_worst()).max(1.0) as u32;
+        Ok(fewest)
+    }
+
     /// Runs the scene with `settings`.
     pub(super) fn run(&self, settings: &Settings) -> Result<Outcome> {
-        self.run_while(&settings.sets(), settings.steps, &|_, _| true)
+        self.run_while(&settings.sets(), settings.steps, &|_| true)
     }
 
     /// Runs the scene as it is written.
@@ -75,43 +115,35 @@ impl Runner<'_> {
 
     /// Runs the scene with the changes `sets`, which make it `steps` steps a frame.
     pub(super) fn run_with(&self, sets: &[String], steps: u32) -> Result<Outcome> {
-        self.run_while(sets, steps, &|_, _| true)
+        self.run_while(sets, steps, &|_| true)
     }
 
-    /// Runs the scene with `settings` until more than `most` springs were visited.
+    /// Runs the scene with `settings` until it is known that more than `most` springs will be visited: an integrator whose
+    /// steps cost the same each shows that in its first frame.
     pub(super) fn run_at_most(&self, settings: &Settings, most: u64) -> Result<Outcome> {
-        self.run_while(&settings.sets(), settings.steps, &|springs, _| springs <= most)
+        let steady = matches!(settings.integrator, Integrator::Verlet | Integrator::Rk4 | Integrator::Xpbd);
+        let goes_on = |run: &Run| {
+            let [all, done] = if steady { [self.frames, run.simulation.frame()] } else { [1, 1] };
+            u128::from(run.springs()) * u128::from(all) <= u128::from(most) * u128::from(done)
+        };
+        self.run_while(&settings.sets(), settings.steps, &goes_on)
     }
 
     /// Runs the scene with `settings` for at most `time`.
     pub(super) fn run_for(&self, settings: &Settings, time: Duration) -> Result<Outcome> {
-        self.run_while(&settings.sets(), settings.steps, &|_, passed| passed <= time)
+        self.run_while(&settings.sets(), settings.steps, &|run| run.elapsed <= time)
     }
 
-    /// Runs the scene with these changes while `goes_on`, given the springs visited and the time passed.
-    fn run_while(
-        &self,
-        sets: &[String],
-        steps: u32,
-        goes_on: &dyn Fn(u64, Duration) -> bool,
-    ) -> Result<Outcome> {
+    /// Runs the scene with these changes while it `goes_on`.
+    fn run_while(&self, sets: &[String], steps: u32, goes_on: &dyn Fn(&Run) -> bool) -> Result<Outcome> {
         let scene = self.source.scene(sets)?;
-        let mut simulation = Simulation::new(&scene)?;
-        let mut time = Duration::ZERO;
-        for _ in 0..self.frames {
-            let started = Instant::now();
-            let ended = simulation.advance_frame();
-            time += started.elapsed();
-            (self.watch)()?;
-            match ended {
-                Err(error) if error.kind == Kind::Unstable => return Ok(Outcome::Unstable),
-                ended => ended?,
-            }
-            if !goes_on(springs(&simulation), time) {
-                return Ok(Outcome::TooDear(springs(&simulation)));
-            }
+        let mut run = Run::new(&scene)?;
+        let ended = self.advance(&mut run, goes_on);
+        self.visited.fetch_add(run.springs(), Ordering::Relaxed);
+        if let Some(outcome) = ended? {
+            return Ok(outcome);
         }
-        let x = simulation.positions();
+        let x = run.simulation.positions();
         let heights = (0..x.len()).map(|p| x.get(p).y);
         let [low, high] = [
             heights.clone().fold(f64::INFINITY, f64::min),
@@ -121,17 +153,28 @@ impl Runner<'_> {
         Ok(Outcome::Done(Level {
             steps,
             shape: self.measure.shape(&scene, x)?,
-            springs: springs(&simulation),
-            rough: is_rough(&simulation),
-            time,
+            springs: run.springs(),
+            rough: is_rough(&run.simulation),
+            time: run.elapsed,
             extent: [low, mean, high],
         }))
     }
-}
 
-fn springs(simulation: &Simulation) -> u64 {
-    let counters = simulation.counters();
-    counters.springs_evaluated + counters.springs_checked
+    /// Advances `run` to the moment; how it ended, if it ended before.
+    fn advance(&self, run: &mut Run, goes_on: &dyn Fn(&Run) -> bool) -> Result<Option<Outcome>> {
+        for _ in 0..self.frames {
+            let ended = run.timed(Simulation::advance_frame);
+            (self.watch)()?;
+            match ended {
+                Err(error) if error.kind == Kind::Unstable => return Ok(Some(Outcome::Unstable)),
+                ended => ended?,
+            }
+            if !goes_on(run) {
+                return Ok(Some(Outcome::TooDear(run.springs())));
+            }
+        }
+        Ok(None)
+    }
 }
 
 fn is_rough(simulation: &Simulation) -> bool {

@@ -17,27 +17,20 @@ mod reason;
 mod budget;
 mod own_error;
 
-use rayon::prelude::*;
-
+use crate::accuracy::measure::Measure;
+use crate::accuracy::source::Source;
 use crate::horizon::{Horizon, Parting};
-use crate::study::source::Source;
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Integrator, Scene};
 use estimate::Limit;
-use goal::{Measure, Tolerance};
+use goal::Tolerance;
 use ladder::Ladder;
-use level::{Level, Outcome, Runner, Settings};
-use others::{Trial, trials};
+use level::{Level, Outcome, Runner};
+use others::{Search, Trial};
 
 pub use answer::{Answer, Candidate, Choice, Model};
 pub use budget::within_budget;
 pub use own_error::{OwnError, own_error};
-
-/// The integrators that are tried beside Verlet's scheme.
-fn other_integrators() -> impl ParallelIterator<Item = Integrator> {
-    let names: Vec<Integrator> = Integrator::NAMES.iter().map(|row| row.1).collect();
-    names.into_par_iter().filter(|integrator| *integrator != Integrator::Verlet)
-}
 
 /// The cheapest settings within `tolerance` at frame `frames`. `watch` is called after each simulated frame, from several
 /// threads, and can end the search with an error.
@@ -52,46 +45,45 @@ pub fn within(
 ) -> Result<Answer> {
     let scene = source.scene(&[])?;
     check_moment(frames)?;
-    let runner = Runner { source, frames, measure: tolerance.measure, watch };
+    let runner = Runner::new(source, frames, tolerance.measure, watch);
     let mut ladder = Ladder::climb(&runner, &scene, tolerance)?;
     let Some((verlet, limit)) = on_the_ladder(&runner, &mut ladder, tolerance)? else {
         return reason::none(&runner, &scene, &ladder, tolerance);
     };
-    let work = verlet.springs;
-    let found: Vec<Vec<Trial>> = other_integrators()
-        .map(|integrator| trials(&runner, integrator, &ladder.cures, &limit, tolerance, work))
-        .collect::<Result<_>>()?;
+    let search = Search { runner: &runner, ladder: &ladder, limit: &limit, tolerance };
+    let found = search.trials(verlet.springs)?;
     let mut best = (ladder.settings(verlet.steps), verlet);
-    for Trial { settings, outcome } in found.iter().flatten() {
-        if let Outcome::Done(level) = outcome
-            && ladder.worst(level, &limit) <= tolerance.value
-            && level.springs < best.1.springs
-        {
-            best = (settings.clone(), level.clone());
+    for trial in &found {
+        let within = trial.level().filter(|level| search.is_within(level));
+        if let Some(level) = within.filter(|level| level.springs < best.1.springs) {
+            best = (trial.settings.clone(), level.clone());
         }
     }
-    let horizon = Horizon::of(source, &ladder.settings(ladder.levels[0].steps).sets(), frames, watch)?;
-    if is_beyond(&horizon.partings, tolerance) {
+    let horizon = match ladder.is_told(&limit, tolerance) {
+        true => None,
+        false => Some(runner.horizon(&ladder.settings(ladder.levels[0].steps))?),
+    };
+    let is_beyond = |horizon: &Horizon| is_beyond(&horizon.partings, tolerance);
+    if horizon.as_ref().is_some_and(is_beyond) {
         return reason::none(&runner, &scene, &ladder, tolerance);
     }
     let (settings, level) = best;
+    let springs_visited = runner.springs_visited();
     Ok(Answer {
         choice: Some(Choice::new(&settings, &level, [ladder.error(&level, &limit), limit.uncertainty])),
         candidates: candidates(&ladder, Some(&limit), &found),
-        horizon: horizon.reached(reason::metres(tolerance).unwrap_or(f64::INFINITY)),
+        springs_visited,
+        horizon: horizon.and_then(|horizon| horizon.reached(tolerance.measure, tolerance.value)),
         model: model(&runner, &scene, &ladder, &limit)?,
         reason: None,
         measure: tolerance.measure,
     })
 }
 
-/// Whether copies that differ by rounding are farther apart at the moment than is allowed. In pixels nobody knows.
+/// Whether copies that differ by rounding are farther apart at the moment than is allowed.
 fn is_beyond(partings: &[Parting], Tolerance { value, measure }: Tolerance) -> bool {
-    partings.last().is_some_and(|last| match measure {
-        Measure::Rms => last.rms > value,
-        Measure::Max => last.max > value,
-        Measure::Pixels => false,
-    })
+    let apart = |last: &Parting| if measure == Measure::Rms { last.rms } else { last.largest(measure) };
+    partings.last().is_some_and(|last| apart(last) > value)
 }
 
 fn check_moment(frames: u64) -> Result<()> {
@@ -126,7 +118,7 @@ fn on_the_ladder(
 }
 
 /// Everything that was run.
-fn candidates(ladder: &Ladder, limit: Option<&Limit>, found: &[Vec<Trial>]) -> Vec<Candidate> {
+fn candidates(ladder: &Ladder, limit: Option<&Limit>, found: &[Trial]) -> Vec<Candidate> {
     let done = |mut candidate: Candidate, level: &Level| {
         candidate.error = limit.map(|limit| ladder.error(level, limit));
         candidate.uncertainty = limit.map(|limit| limit.uncertainty);
@@ -138,13 +130,16 @@ fn candidates(ladder: &Ladder, limit: Option<&Limit>, found: &[Vec<Trial>]) -> V
     let of_ladder = levels
         .into_iter()
         .map(|level| done(Candidate::of(Integrator::Verlet, level.steps, level.springs), level));
-    let of_others = found.iter().flatten().map(|Trial { settings, outcome }| {
+    let of_others = found.iter().map(|Trial { settings, outcome }| {
         let of = |springs| Candidate::of(settings.integrator, settings.steps, springs);
         match outcome {
             Outcome::Done(level) => done(of(level.springs), level),
             Outcome::Unstable => Candidate { ended: Some("unstable"), ..of(0) },
             Outcome::TooDear(springs) => {
                 Candidate { ended: Some("given up, as it visits more springs"), ..of(*springs) }
+            }
+            Outcome::Hopeless => {
+                Candidate { ended: Some("not run, as verlet is far off with no fewer steps"), ..of(0) }
             }
         }
     });
@@ -157,18 +152,13 @@ fn model(runner: &Runner<'_>, scene: &Scene, ladder: &Ladder, limit: &Limit) -> 
     if let Outcome::Done(level) = runner.run_as_written(scene)? {
         model.push(Model { what: "the scene as it is written, off by", error: ladder.error(&level, limit) });
     }
-    let per_second = "sim.damping=per_second".to_owned();
-    if ladder.cures.contains(&per_second) {
-        let sets = ladder.cures.iter().filter(|cure| **cure != per_second).cloned().collect();
-        let settings = Settings { integrator: Integrator::Verlet, steps: scene.sim.steps_per_frame, sets };
-        let cured = Settings { sets: ladder.cures.clone(), ..settings.clone() };
-        let [a, b] = [runner.run(&settings)?, runner.run(&cured)?];
-        if let (Outcome::Done(a), Outcome::Done(b)) = (a, b) {
-            let error = limit.measure.distance(&a.shape, &b.shape);
-            model.push(Model {
-                what: "damping per step differs from damping per second, which no step cures, by",
-                error,
-            });
+    let mut settings = ladder.settings(ladder.levels[0].steps);
+    let same = own_error::same_damping(scene).filter(|sets| settings.sets.contains(&sets[0]));
+    if let Some(sets) = same.filter(|_| !own_error::is_at_the_report_s_rate(scene)) {
+        settings.sets.extend(sets);
+        if let Outcome::Done(level) = runner.run(&settings)? {
+            let what = "damping per step takes another part of the motion in a second, which no step cures, and moves the points by";
+            model.push(Model { what, error: limit.measure.distance(&level.shape, &ladder.levels[0].shape) });
         }
     }
     Ok(model)
@@ -180,13 +170,14 @@ mod tests {
 
     #[test]
     fn what_counts_is_how_far_copies_are_apart_at_the_moment() {
-        let parting = |rms: f64| Parting { time: 0.1, rms, max: 10.0 * rms };
+        let parting = |rms: f64| Parting { time: 0.1, rms, max: 10.0 * rms, pixels: Some(1000.0 * rms) };
         let beyond = |rms: &[f64], measure: Measure| {
             let partings: Vec<Parting> = rms.iter().map(|&rms| parting(rms)).collect();
             is_beyond(&partings, Tolerance { value: 1e-3, measure })
         };
         assert!(beyond(&[1e-9, 2e-3], Measure::Rms) && !beyond(&[2e-3, 1e-9], Measure::Rms));
         assert!(beyond(&[2e-4], Measure::Max) && !beyond(&[2e-4], Measure::Rms));
-        assert!(!beyond(&[1.0], Measure::Pixels) && !beyond(&[], Measure::Max));
+        assert!(beyond(&[2e-6], Measure::Pixels) && !beyond(&[2e-6], Measure::Max));
+        assert!(!beyond(&[], Measure::Max));
     }
 }

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::goal::Measure;
 use super::level::{Outcome, Runner};
-use crate::study::source::Source;
+use crate::accuracy::measure::Measure;
+use crate::accuracy::source::Source;
 use drape::error::{Error, Kind, Result};
 use drape::math;
 use drape::scene::{Damping, Scene};
@@ -39,8 +39,11 @@ impl OwnError {
     }
 }
 
-/// Estimates the error of `simulation`, a run of `scene`, read from `source`, that never stopped. `watch` is called after
-/// each frame of the other run and can end it with an error.
+/// Estimates the error of `simulation`, a run of `scene`, read from `source`. `watch` is called after each frame of the
+/// other run and can end it with an error.
+///
+/// The other run is one from the start. So the error of a simulation that went on from a state of the same scene, which
+/// has the bits of one that never stopped, is that of the whole way.
 ///
 /// The other run loses the same part of its velocity in a second: damping per step has no limit as the step shrinks,
 /// but what the scene takes at its own step has one.
@@ -57,7 +60,7 @@ pub fn own_error(
     let mut sets = vec![format!("sim.steps_per_frame={steps_per_frame}")];
     sets.extend(same_damping(scene).into_iter().flatten());
     let measure = Measure::Max;
-    let runner = Runner { source, frames: simulation.frame(), measure, watch };
+    let runner = Runner::new(source, simulation.frame(), measure, watch);
     let Outcome::Done(finer) = runner.run_with(&sets, steps_per_frame)? else {
         let message =
             format!("the cloth blows up at {steps_per_frame} steps a frame, so its error is not known");
@@ -69,11 +72,20 @@ pub fn own_error(
 }
 
 /// The changes that turn the damping per step of `scene` into damping per second that takes as much.
-fn same_damping(scene: &Scene) -> Option<[String; 2]> {
+pub(super) fn same_damping(scene: &Scene) -> Option<[String; 2]> {
     let damping = scene.cloth.as_ref()?.damping;
-    let rate = scene.sim.fps * f64::from(scene.sim.steps_per_frame);
     let per_step = scene.sim.damping == Damping::PerStep && damping > 0.0;
-    let kept = math::pow(1.0 - damping / 100.0, rate / REPORT_RATE);
+    let kept = math::pow(1.0 - damping / 100.0, rate(scene) / REPORT_RATE);
     per_step
         .then(|| ["sim.damping=per_second".to_owned(), format!("cloth.damping={:?}", 100.0 * (1.0 - kept))])
+}
+
+/// Whether damping per step takes what damping per second does with the same number.
+pub(super) fn is_at_the_report_s_rate(scene: &Scene) -> bool {
+    rate(scene) == REPORT_RATE
+}
+
+/// Steps per second.
+fn rate(scene: &Scene) -> f64 {
+    scene.sim.fps * f64::from(scene.sim.steps_per_frame)
 }

@@ -1,21 +1,15 @@
 //! Why no settings are within what was asked.
 
 use super::answer::Answer;
-use super::goal::{Measure, Tolerance};
+use super::candidates;
+use super::goal::Tolerance;
 use super::ladder::Ladder;
 use super::level::Runner;
-use super::{candidates, others::Trial};
-use crate::horizon::Horizon;
 use drape::error::Result;
 use drape::scene::Scene;
 
 /// The part of the tolerance that copies may have parted by where positions can be told.
 const HORIZON: f64 = 0.5;
-
-/// The tolerance in metres.
-pub(super) fn metres(tolerance: Tolerance) -> Option<f64> {
-    (tolerance.measure != Measure::Pixels).then_some(tolerance.value)
-}
 
 /// The answer where the ladder found no limit, or one that rounding decides: whether copies that differ by rounding have parted, or which settings
 /// of the scene have no limit, and what can be promised nevertheless.
@@ -26,9 +20,9 @@ pub(super) fn none(
     tolerance: Tolerance,
 ) -> Result<Answer> {
     let last = &ladder.levels[ladder.levels.len() - 1];
-    let sets = ladder.settings(last.steps).sets();
-    let horizon = Horizon::of(runner.source, &sets, runner.frames, runner.watch)?;
-    let parted = horizon.partings.last().map_or(0.0, |parting| parting.max);
+    let horizon = runner.horizon(&ladder.settings(last.steps))?;
+    let parted = horizon.partings.last().map_or(0.0, |parting| parting.largest(tolerance.measure));
+    let moved_apart = horizon.partings.last().map_or(0.0, |parting| parting.max);
     let unit = tolerance.measure.unit();
     let asked = tolerance.value;
     let floor = match ladder.levels.as_slice() {
@@ -43,14 +37,12 @@ pub(super) fn none(
         tolerance.measure.words()
     );
     let floor = if ladder.limit.is_some() { agreed } else { moved };
-    let cause = if metres(tolerance).is_none_or(|asked| parted > HORIZON * asked)
-        && parted > 1e6 * horizon.rounding
-    {
+    let cause = if parted > HORIZON * asked && moved_apart > 1e6 * horizon.rounding {
         let growth = horizon
             .growth
             .map_or_else(String::new, |rate| format!(", growing by e every {:.3} s", 1.0 / rate));
         format!(
-            "the motion is beyond its horizon: copies that differ by rounding, {:.1e} m, are {parted:.1e} m apart{growth}",
+            "the motion is beyond its horizon: copies that differ by rounding, {:.1e} m, are {parted:.1e} {unit} apart{growth}",
             horizon.rounding
         )
     } else {
@@ -76,8 +68,9 @@ pub(super) fn none(
     );
     Ok(Answer {
         choice: None,
-        candidates: candidates(ladder, None, &Vec::<Vec<Trial>>::new()),
-        horizon: metres(tolerance).and_then(|asked| horizon.reached(HORIZON * asked)),
+        candidates: candidates(ladder, None, &[]),
+        springs_visited: runner.springs_visited(),
+        horizon: horizon.reached(tolerance.measure, HORIZON * asked),
         model: Vec::new(),
         reason: Some(format!("{floor}\n{cause}\n{promised}")),
         measure: tolerance.measure,

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::{Parting, Spread, distance};
-use drape::cloth::Points;
+use super::{Parting, Spread};
+use crate::accuracy::measure::{Measure, Shape, difference};
+use crate::accuracy::run::Run;
 use drape::error::Result;
 use drape::math::splitmix64;
 use drape::scene::Scene;
@@ -13,24 +14,26 @@ use drape::simulation::Simulation;
 pub const COPIES: usize = 3;
 
 /// A simulation, and copies of it.
-pub(super) struct Copies {
+pub(super) struct Copies<'a> {
+    scene: &'a Scene,
     /// The simulation itself is the first.
-    simulations: Vec<Simulation>,
+    runs: Vec<Run>,
     /// In metres.
     pub(super) rounding: f64,
 }
 
-impl Copies {
+impl<'a> Copies<'a> {
     /// The simulation of `scene`, and copies whose free points start a rounding error away in each coordinate, up or
     /// down at random but the same in every run; their speeds are the same.
-    pub(super) fn new(scene: &Scene) -> Result<Self> {
-        let first = Simulation::new(scene)?;
-        let x = first.positions();
+    pub(super) fn new(scene: &'a Scene) -> Result<Self> {
+        let first = Run::new(scene)?;
+        let x = first.simulation.positions();
         let farthest = (0..x.len()).map(|p| x.get(p).amax()).fold(0.0, f64::max);
         let rounding = 0.5 * f64::EPSILON * farthest;
-        let mut simulations = vec![first];
+        let mut runs = vec![first];
         for copy in 0..COPIES as u64 {
-            let mut simulation = Simulation::new(scene)?;
+            let mut run = Run::new(scene)?;
+            let simulation = &mut run.simulation;
             let [mut x, mut last] = [simulation.positions().clone(), simulation.last_positions().clone()];
             let pinned = pinned(scene);
             for p in (0..x.len()).filter(|p| !pinned.contains(p)) {
@@ -41,44 +44,51 @@ impl Copies {
                 last.set(p, last.get(p) + moved);
             }
             simulation.set_state(x, last)?;
-            simulations.push(simulation);
+            runs.push(run);
         }
-        Ok(Self { simulations, rounding })
+        Ok(Self { scene, runs, rounding })
     }
 
     /// Advances all by a frame.
     pub(super) fn advance(&mut self) -> Result<()> {
-        self.simulations.par_iter_mut().try_for_each(Simulation::advance_frame)
+        self.runs.par_iter_mut().try_for_each(|run| run.simulation.advance_frame())
     }
 
-    fn others(&self) -> impl Iterator<Item = &Points> {
-        self.simulations[1..].iter().map(Simulation::positions)
+    /// Springs visited by all.
+    pub(super) fn springs_visited(&self) -> u64 {
+        self.runs.iter().map(Run::springs).sum()
     }
 
-    /// How far they have parted.
-    pub(super) fn parting(&self) -> Parting {
-        let first = self.simulations[0].positions();
-        let distances = self.others().flat_map(|x| (0..x.len()).map(|p| distance(x.get(p), first.get(p))));
-        let (mut sum, mut max, mut count) = (0.0, 0.0_f64, 0.0_f64);
-        for distance in distances {
-            sum += distance * distance;
-            max = max.max(distance);
-            count += 1.0;
-        }
-        Parting { time: self.simulations[0].time(), rms: (sum / count.max(1.0)).sqrt(), max }
+    /// How far they have parted; in the picture too if `measure` is.
+    pub(super) fn parting(&self, measure: Measure) -> Result<Parting> {
+        let apart = self.apart(Measure::Max)?;
+        let of = |measure: Measure, apart: &[Shape]| measure.size(&apart.concat());
+        let pixels = match measure {
+            Measure::Pixels => Some(of(measure, &self.apart(measure)?)),
+            Measure::Rms | Measure::Max => None,
+        };
+        let time = self.runs[0].simulation.time();
+        Ok(Parting { time, rms: of(Measure::Rms, &apart), max: of(Measure::Max, &apart), pixels })
+    }
+
+    /// What the points of each copy differ by from those of the first.
+    fn apart(&self, measure: Measure) -> Result<Vec<Shape>> {
+        let shape = |run: &Run| measure.shape(self.scene, run.simulation.positions());
+        let first = shape(&self.runs[0])?;
+        self.runs[1..].iter().map(|run| Ok(difference(&shape(run)?, &first))).collect()
     }
 
     /// Of each point, the largest distance of a copy.
-    pub(super) fn map(&self) -> Vec<f64> {
-        let first = self.simulations[0].positions();
-        let of = |p: usize| self.others().map(|x| distance(x.get(p), first.get(p))).fold(0.0, f64::max);
-        (0..first.len()).map(of).collect()
+    pub(super) fn map(&self) -> Result<Vec<f64>> {
+        let apart = self.apart(Measure::Max)?;
+        let of = |p: usize| apart.iter().map(|copy| Measure::Max.size(&copy[p..=p])).fold(0.0, f64::max);
+        Ok((0..self.runs[0].simulation.positions().len()).map(of).collect())
     }
 
     /// What they agree on.
     pub(super) fn spread(&self) -> Spread {
         let range = |of: &dyn Fn(&Simulation) -> f64| {
-            let values = self.simulations.iter().map(of);
+            let values = self.runs.iter().map(|run| of(&run.simulation));
             [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
         };
         let heights = |s: &Simulation| s.positions().y.clone();

@@ -10,10 +10,10 @@ mod page;
 
 use serde::Serialize;
 
-use crate::study::source::Source;
+use crate::accuracy::measure::Measure;
+use crate::accuracy::source::Source;
 use drape::error::Result;
 use drape::math;
-use drape::scene::Vec3;
 
 pub use copies::COPIES;
 pub use page::page;
@@ -36,6 +36,16 @@ pub struct Parting {
     pub rms: f64,
     /// Largest distance of a point from the same one of the first copy, in metres.
     pub max: f64,
+    /// Largest distance in the picture that the camera of the scene shows, in pixels, if that is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<f64>,
+}
+
+impl Parting {
+    /// The largest distance of a point in the unit of `measure`; none in pixels where it was not asked for.
+    pub fn largest(&self, measure: Measure) -> f64 {
+        if measure == Measure::Pixels { self.pixels.unwrap_or_default() } else { self.max }
+    }
 }
 
 /// Copies of a simulation beside each other.
@@ -58,6 +68,9 @@ pub struct Horizon {
     /// Columns and rows of points.
     #[serde(skip)]
     pub size: [usize; 2],
+    /// Springs visited by all copies.
+    #[serde(skip)]
+    pub springs_visited: u64,
 }
 
 /// When the copies have parted by a distance.
@@ -83,15 +96,16 @@ pub struct Spread {
 }
 
 impl Horizon {
-    /// Runs `source`, with the further changes `sets`, for `frames` frames beside copies. `watch` is called after
-    /// each frame and can end it with an error.
+    /// Runs `source`, with the further changes `sets`, for `frames` frames beside copies; the distances are also those in
+    /// the picture if `measure` is. `watch` is called after each frame and can end it with an error.
     ///
     /// # Errors
-    /// Those of the scene, of the simulation, and of `watch`.
+    /// Those of the scene, of the simulation, of the camera and of `watch`.
     pub fn of(
         source: &Source,
         sets: &[String],
         frames: u64,
+        measure: Measure,
         watch: &(dyn Fn() -> Result<()> + Sync),
     ) -> Result<Self> {
         let scene = source.scene(sets)?;
@@ -100,30 +114,31 @@ impl Horizon {
         for _ in 0..frames {
             copies.advance()?;
             watch()?;
-            partings.push(copies.parting());
+            partings.push(copies.parting(measure)?);
         }
         let size = scene.cloth.as_ref().map_or([0, 0], |c| [c.num_width_points, c.num_height_points]);
         Ok(Self {
             rounding: copies.rounding,
             times: DISTANCES
-                .map(|(distance, _)| Reached { distance, time: reached(&partings, distance) })
+                .map(|(distance, _)| Reached { distance, time: reached(&partings, Measure::Max, distance) })
                 .to_vec(),
             growth: growth(&partings, copies.rounding),
             spread: copies.spread(),
-            map: copies.map(),
+            map: copies.map()?,
             size,
+            springs_visited: copies.springs_visited(),
             partings,
         })
     }
 
-    /// The first time at which a point has parted by `distance` metres, in seconds.
-    pub fn reached(&self, distance: f64) -> Option<f64> {
-        reached(&self.partings, distance)
+    /// The first time at which a point has parted by `distance` in the unit of `measure`, in seconds.
+    pub fn reached(&self, measure: Measure, distance: f64) -> Option<f64> {
+        reached(&self.partings, measure, distance)
     }
 }
 
-fn reached(partings: &[Parting], distance: f64) -> Option<f64> {
-    partings.iter().find(|parting| parting.max >= distance).map(|parting| parting.time)
+fn reached(partings: &[Parting], measure: Measure, distance: f64) -> Option<f64> {
+    partings.iter().find(|parting| parting.largest(measure) >= distance).map(|parting| parting.time)
 }
 
 /// The slope of a line through the logarithms of the distances, by least squares, from the last frame at which they are
@@ -147,11 +162,6 @@ fn growth(partings: &[Parting], rounding: f64) -> Option<f64> {
     (slope > 0.0).then_some(slope)
 }
 
-/// The distance of two points.
-fn distance(a: Vec3, b: Vec3) -> f64 {
-    (a - b).norm()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,7 +169,7 @@ mod tests {
     fn partings(rms: impl Fn(f64) -> f64) -> Vec<Parting> {
         (1..=90)
             .map(|i| f64::from(i) / 90.0)
-            .map(|time| Parting { time, rms: rms(time), max: 2.0 * rms(time) })
+            .map(|time| Parting { time, rms: rms(time), max: 2.0 * rms(time), pixels: None })
             .collect()
     }
 
@@ -167,8 +177,8 @@ mod tests {
     fn the_growth_is_the_rate_before_a_micrometre() {
         let partings = partings(|t| 1e-16 * math::exp(30.0 * t));
         assert!((growth(&partings, 1e-16).unwrap() - 30.0).abs() < 1e-9);
-        assert_eq!(reached(&partings, 1e-6), Some(67.0 / 90.0));
-        assert_eq!(reached(&partings, 1e-2), None);
+        assert_eq!(reached(&partings, Measure::Max, 1e-6), Some(67.0 / 90.0));
+        assert_eq!(reached(&partings, Measure::Max, 1e-2), None);
     }
 
     #[test]

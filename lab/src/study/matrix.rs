@@ -3,7 +3,7 @@
 use super::extent::Extent;
 use super::method::{LARGE_STEPS, METHODS, Rates, run_name};
 use super::rates::{clock, rates_around, springs_in};
-use super::source::Source;
+use crate::accuracy::source::Source;
 use drape::cloth::Params;
 use drape::diagnostics::stability::Stability;
 use drape::error::{Error, Kind, Result};

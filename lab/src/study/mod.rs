@@ -2,7 +2,6 @@
 //! cloth against a self-converged reference, the ways to draw the scene against a converged picture,
 //! and the advice that follows: the best choice within a budget.
 
-pub mod source;
 pub mod method;
 pub mod extent;
 mod rates;
@@ -18,13 +17,13 @@ mod page;
 
 use rayon::prelude::*;
 
+use crate::accuracy::source::Source;
 use crate::store::Store;
 use drape::error::Result;
 use drape::texture_source::TextureSource;
 use extent::Extent;
 use matrix::{Panel, panels};
 use reference::{RUNGS, converge};
-use source::Source;
 
 pub use findings::{Cost, PanelStudy, Study};
 pub use page::page;

@@ -16,8 +16,9 @@ use serde::Serialize;
 use super::extent::Extent;
 use super::matrix::Panel;
 use super::rates::clock;
-use super::source::Source;
 use super::trajectory::{self, Limits, Moment, Trajectory};
+use crate::accuracy::measure::Measure;
+use crate::accuracy::source::Source;
 use crate::store::{Store, key};
 use drape::error::{Error, Kind, Result};
 
@@ -56,14 +57,9 @@ pub struct Difference {
 impl Difference {
     /// The difference of `a` from `b`, the same moment of another run.
     pub fn between(a: &Moment, b: &Moment) -> Self {
-        let (mut sum, mut max) = (0.0, 0.0_f64);
-        let points = b.x[0].len();
-        for p in 0..points {
-            let square: f64 = a.x.iter().zip(&b.x).map(|(a, b)| (a[p] - b[p]) * (a[p] - b[p])).sum();
-            sum += square;
-            max = max.max(square);
-        }
-        Self { time: b.time, rms: (sum / points.max(1) as f64).sqrt(), max: max.sqrt() }
+        let of = |p: usize| a.x.iter().zip(&b.x).map(|(a, b)| (a[p] - b[p]) * (a[p] - b[p])).sum();
+        let length = |measure: Measure| measure.of_squares((0..b.x[0].len()).map(of));
+        Self { time: b.time, rms: length(Measure::Rms), max: length(Measure::Max) }
     }
 
     /// Whether `floor` is at most `part` of this error.

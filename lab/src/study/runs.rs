@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::extent::Extent;
 use super::matrix::{Cell, Panel};
 use super::reference::{Difference, Reference, differences};
-use super::source::Source;
 use super::trajectory::{self, Limits, Moment, Trajectory};
+use crate::accuracy::source::Source;
 use crate::store::{Address, Store, key};
 use drape::error::Result;
 

@@ -1,9 +1,8 @@
 //! One run: the positions and the energy of the cloth at each moment, and what the run cost.
 
-use std::time::{Duration, Instant};
-
 use serde::{Deserialize, Serialize};
 
+use crate::accuracy::run::Run;
 use drape::cloth::Points;
 use drape::error::Result;
 use drape::scene::Scene;
@@ -66,59 +65,50 @@ pub fn run(
     watch: &dyn Fn(u32) -> Result<()>,
 ) -> Result<Trajectory> {
     let left = limits.tenths.last().map_or(0, |last| rate / 10 * last);
-    let mut run = Run { simulation: Simulation::new(scene)?, elapsed: Duration::ZERO, left, watch };
-    run.simulation.allow_unstable();
+    let mut way = Way { run: Run::new(scene)?, left, watch };
+    way.run.simulation.allow_unstable();
     let mut probe = Probe::new(scene)?;
     let (mut moments, mut given_up, mut done) = (Vec::new(), false, 0);
     for &tenth in limits.tenths {
         let steps = rate / 10 * tenth - done;
         let most = limits.most_springs * if done == 0 { FIRST } else { 1.0 };
-        let in_time = run.advance(steps - 1, most)?;
-        let before = run.simulation.positions().clone();
-        given_up = !(in_time && run.advance(1, most)?);
+        let in_time = way.advance(steps - 1, most)?;
+        let before = way.run.simulation.positions().clone();
+        given_up = !(in_time && way.advance(1, most)?);
         if given_up {
             break;
         }
         done += steps;
-        match probe.moment(&run.simulation, &before, f64::from(tenth) / 10.0)? {
+        match probe.moment(&way.run.simulation, &before, f64::from(tenth) / 10.0)? {
             Some(moment) => moments.push(moment),
             None => break,
         }
     }
-    watch(run.left)?;
+    watch(way.left)?;
+    let run = way.run;
     let simulated = run.simulation.steps().max(1) as f64 / f64::from(rate);
     let wall = run.elapsed.as_secs_f64() / simulated;
-    Ok(Trajectory { moments, springs: springs(&run.simulation) / simulated, wall, given_up })
+    Ok(Trajectory { moments, springs: run.springs() as f64 / simulated, wall, given_up })
 }
 
-/// Springs visited so far.
-#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn springs(simulation: &Simulation) -> f64 {
-    let counters = simulation.counters();
-    (counters.springs_evaluated + counters.springs_checked) as f64
-}
-
-/// A run in progress.
-struct Run<'a> {
-    simulation: Simulation,
-    elapsed: Duration,
+/// A run that tells its steps.
+struct Way<'a> {
+    run: Run,
     /// Steps that `watch` was not told yet.
     left: u32,
     watch: &'a dyn Fn(u32) -> Result<()>,
 }
 
-impl Run<'_> {
+impl Way<'_> {
     /// Makes `steps` steps, and stops once more than `most` springs were visited; whether it made them all.
     fn advance(&mut self, steps: u32, most: f64) -> Result<bool> {
         let mut left = steps;
         while left > 0 {
-            if springs(&self.simulation) > most {
+            if self.run.springs() as f64 > most {
                 return Ok(false);
             }
             let some = left.min(STEPS_PER_CHECK);
-            let started = Instant::now();
-            (0..some).for_each(|_| self.simulation.step());
-            self.elapsed += started.elapsed();
+            self.run.timed(|simulation| (0..some).for_each(|_| simulation.step()));
             left -= some;
             self.left -= some;
             (self.watch)(some)?;

@@ -43,7 +43,7 @@ fn python_after(word: &str, language: &str, module: &str) -> Option<String> {
 
 #[test]
 fn the_notebook_reads_points_and_pictures() {
-    let Some(said) = python_after("points.bin", "python notebook", "PIL") else { return };
+    let Some(said) = python_after("points.npy", "python notebook", "PIL") else { return };
     assert!(said.contains("lowest point 0.") && said.contains("(250, 320, 3)"), "{said}");
 }
 

@@ -10,7 +10,7 @@ use glow::HasContext;
 
 use super::context::Context;
 use super::object::{Object, vec3};
-use super::program::Programs;
+use super::program::{Programs, Varyings};
 use super::target::Target;
 
 /// A picture as the driver makes it, top row first.
@@ -23,7 +23,7 @@ pub(crate) struct GlPicture {
 /// The driver with what was given to it so far.
 pub(crate) struct Device<'a> {
     pub(crate) gl: &'a glow::Context,
-    qualifier: &'static str,
+    varyings: Varyings,
     programs: Vec<(Shader, Programs)>,
     textures: Vec<(String, glow::Texture, [f32; 2])>,
 }
@@ -39,11 +39,11 @@ pub(crate) struct Uploaded {
 
 impl<'a> Device<'a> {
     pub(crate) fn new(context: &'a Context) -> Self {
-        Self::qualified(context, "")
+        Self::with_varyings(context, Varyings::Centre)
     }
 
-    /// As [`Device::new`], with a qualifier before each varying.
-    pub(crate) fn qualified(context: &'a Context, qualifier: &'static str) -> Self {
+    /// As [`Device::new`], with the varyings of a fragment from another place.
+    pub(crate) fn with_varyings(context: &'a Context, varyings: Varyings) -> Self {
         let gl = &context.gl;
         unsafe {
             gl.enable(glow::DEPTH_TEST);
@@ -54,7 +54,7 @@ impl<'a> Device<'a> {
             // seamless cube maps or multisampling; lines one pixel wide.
             gl.disable(glow::DITHER);
         }
-        Self { gl, qualifier, programs: Vec::new(), textures: Vec::new() }
+        Self { gl, varyings, programs: Vec::new(), textures: Vec::new() }
     }
 
     /// Objects of a scene in colours and in ids.
@@ -84,8 +84,7 @@ impl<'a> Device<'a> {
     pub(crate) fn prepare(&mut self, object: &Object<'_>) {
         let material = object.material;
         if !self.programs.iter().any(|(shader, _)| *shader == material.shader) {
-            self.programs
-                .push((material.shader, Programs::compile(self.gl, material.shader, self.qualifier)));
+            self.programs.push((material.shader, Programs::compile(self.gl, material.shader, self.varyings)));
         }
         for name in [&material.texture, &material.height_map] {
             if self.texture(name).is_none() {

@@ -11,6 +11,18 @@ const ID_FRAGMENT: &str = "#version 330\n\
     out uint out_id;\n\
     void main() { out_id = u_object << 24 | uint(gl_PrimitiveID + 1); }\n";
 
+/// Where the varyings of a fragment are taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Varyings {
+    /// The centre of the pixel, also where it is beyond the triangle.
+    Centre,
+    /// A place inside of the triangle.
+    Centroid,
+    /// The same place, with the division by 1/w in the fragment shader: each varying times 1/w and 1/w itself are
+    /// interpolated there without perspective.
+    CentroidDivided,
+}
+
 /// A shader's own files, and its vertex stage with ids as colours.
 pub(crate) struct Programs {
     pub(crate) color: glow::Program,
@@ -18,16 +30,16 @@ pub(crate) struct Programs {
 }
 
 impl Programs {
-    /// Compiles `src/shader/*` of a shader, with a qualifier before each varying such as `centroid`. Any word of the driver about it is a failure.
-    pub(crate) fn compile(gl: &glow::Context, shader: Shader, qualifier: &str) -> Self {
+    /// Compiles `src/shader/*` of a shader, changed to take its `varyings` from there. Any word of the driver about it is a
+    /// failure.
+    pub(crate) fn compile(gl: &glow::Context, shader: Shader, varyings: Varyings) -> Self {
         let name = shader.name();
         let vertex = match shader {
             Shader::Displacement | Shader::Custom => format!("{name}.vert"),
             _ => "default.vert".to_owned(),
         };
         let fragment = format!("{name}.frag");
-        let [vertex_text, fragment_text] =
-            [&vertex, &fragment].map(|name| qualified(&source(name), qualifier));
+        let [vertex_text, fragment_text] = [&vertex, &fragment].map(|name| varyings.put_into(&source(name)));
         let vertex = (vertex.as_str(), vertex_text);
         let color = link(gl, &vertex, &(&fragment, fragment_text));
         let id = link(gl, &vertex, &("ids", ID_FRAGMENT.to_owned()));
@@ -35,13 +47,49 @@ impl Programs {
     }
 }
 
-/// A text with a qualifier before each varying.
-fn qualified(text: &str, qualifier: &str) -> String {
-    let line = |line: &str| {
-        let varying = line.contains(" v_") && (line.starts_with("in ") || line.starts_with("out "));
-        if varying { format!("{qualifier} {line}\n") } else { format!("{line}\n") }
-    };
-    text.lines().map(line).collect()
+impl Varyings {
+    /// The text of a shader that takes its varyings from there.
+    fn put_into(self, text: &str) -> String {
+        let varyings: Vec<&str> = text.lines().filter(|line| is_varying(line)).collect();
+        let lines = text.lines().map(|line| match self {
+            _ if !is_varying(line) => line.to_owned(),
+            Self::Centre => line.to_owned(),
+            Self::Centroid => format!("centroid {line}"),
+            Self::CentroidDivided => line.trim_start_matches("in ").trim_start_matches("out ").to_owned(),
+        });
+        let text = lines.collect::<Vec<_>>().join("\n") + "\n";
+        if self == Self::CentroidDivided { divided(&text, &varyings) } else { text }
+    }
+}
+
+fn is_varying(line: &str) -> bool {
+    line.contains(" v_") && (line.starts_with("in ") || line.starts_with("out "))
+}
+
+/// A shader whose `varyings` are plain variables now: the vertex stage hands on each times 1/w, which the fragment stage
+/// divides by 1/w.
+fn divided(text: &str, varyings: &[&str]) -> String {
+    let is_vertex = text.contains("gl_Position");
+    let way = if is_vertex { "out" } else { "in" };
+    let mut declared = format!("noperspective centroid {way} float q_w;\n");
+    let mut assigned = String::new();
+    for varying in varyings {
+        let kind = varying.split_whitespace().nth(1).unwrap();
+        let name = varying.split_whitespace().nth(2).unwrap().trim_end_matches(';');
+        declared += &format!("noperspective centroid {way} {kind} q_{name};\n");
+        assigned += &match is_vertex {
+            true => format!("q_{name} = {name} * q_w;\n"),
+            false => format!("{name} = q_{name} / q_w;\n"),
+        };
+    }
+    let (before, main) = text.split_once("void main() {").unwrap();
+    match is_vertex {
+        true => {
+            let (body, _) = main.rsplit_once('}').unwrap();
+            format!("{before}{declared}void main() {{{body}q_w = 1.0 / gl_Position.w;\n{assigned}}}\n")
+        }
+        false => format!("{before}{declared}void main() {{\n{assigned}{main}"),
+    }
 }
 
 fn source(name: &str) -> String {

@@ -1,4 +1,4 @@
-//! The scene that a study runs, loaded anew with the changes of each run.
+//! A scene that is run several times, loaded anew with the changes of each run.
 
 use std::path::PathBuf;
 
