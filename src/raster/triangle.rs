@@ -127,7 +127,7 @@ impl Sample {
     /// How far a pixel is from that.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "they are less than 64")]
-    fn from_origin(&self, x: usize, y: usize) -> [i32; 2] {
+    fn beyond_origin(&self, x: usize, y: usize) -> [i32; 2] {
         [x as i32 - self.origin[0] as i32, y as i32 - self.origin[1] as i32]
     }
 }
@@ -159,7 +159,7 @@ fn draw_sample<S: FragmentLanes>(
         let x = start.min(TILE - WIDTH);
         start += WIDTH;
         let along_row = along_row(simd, whole(left + x) + dx - plane.origin[0], plane.column);
-        let first = sample.from_origin(x, bounds.y[0]);
+        let first = sample.beyond_origin(x, bounds.y[0]);
         let mut next = [e0.values(simd, first), e1.values(simd, first), e2.values(simd, first)];
         // Whole numbers and sixteenths: a row down is exactly one less.
         let mut window_y = height as f64 - (whole(top + bounds.y[0]) + dy);
