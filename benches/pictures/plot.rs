@@ -1,6 +1,9 @@
 //! The plot of `docs/speed.md`: how the time of a picture grows with the points of the cloth and with the pixels.
 
+use std::f64::consts::LN_10;
 use std::fmt::Write;
+
+use drape::math::{ln, pow};
 
 /// Width and height of the plot, and its frame: left, right, top, bottom.
 const SIZE: [f64; 2] = [640.0, 400.0];
@@ -18,7 +21,7 @@ const SERIES: [(&str, &str, &str); 2] = [
 /// A place in the plot.
 fn place(count: f64, milliseconds: f64) -> [f64; 2] {
     let [left, right, top, bottom] = FRAME;
-    let part = |value: f64, [low, high]: [f64; 2]| (value.log10() - low) / (high - low);
+    let part = |value: f64, [low, high]: [f64; 2]| (ln(value) / LN_10 - low) / (high - low);
     let (x, y) = (part(count, ENDS[0]), part(milliseconds, ENDS[1]));
     [left + x * (right - left), bottom - y * (bottom - top)]
 }
@@ -68,7 +71,7 @@ pub(super) fn plot(tables: &[String]) -> String {
 fn grid(svg: &mut String) {
     let [left, right, top, bottom] = FRAME;
     for exponent in 3..=8 {
-        let [x, _] = place(10_f64.powi(exponent), 1.0);
+        let [x, _] = place(pow(10.0, f64::from(exponent)), 1.0);
         let _ = writeln!(svg, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#ddd\"/>");
         let _ = writeln!(
             svg,
@@ -77,14 +80,14 @@ fn grid(svg: &mut String) {
         );
     }
     for exponent in -1..=4 {
-        let [_, y] = place(1.0, 10_f64.powi(exponent));
+        let [_, y] = place(1.0, pow(10.0, f64::from(exponent)));
         let _ = writeln!(svg, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#ddd\"/>");
         let _ = writeln!(
             svg,
             "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
             left - 6.0,
             y + 4.0,
-            10_f64.powi(exponent)
+            pow(10.0, f64::from(exponent))
         );
     }
     for first in [[1e3, 0.1], [1e4, 0.1]] {

@@ -314,10 +314,10 @@ mod tests {
     /// What the method does with a cell: where its points end, and which moved, in order.
     fn by_the_method(x: &Points, rule: &Separation, pinned: &[bool]) -> Vec<(u32, Vec3)> {
         let (mut x, mut moved) = (x.clone(), Vec::new());
-        for p in 0..x.len() {
+        for (p, &pinned) in pinned.iter().enumerate() {
             let mut pushes = Pushes::default();
             (0..x.len()).filter(|&o| o != p).for_each(|o| pushes.add(x.get(p) - x.get(o), rule));
-            if let Some(position) = rule.corrected(x.get(p), &pushes).filter(|_| !pinned[p]) {
+            if let Some(position) = rule.corrected(x.get(p), &pushes).filter(|_| !pinned) {
                 x.set(p, position);
                 moved.push((u32::try_from(p).unwrap(), position));
             }

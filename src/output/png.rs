@@ -5,7 +5,8 @@ use std::path::Path;
 
 use ::png::{BitDepth, Compression, DecodeOptions, Decoder, Encoder, EncodingError, Filter};
 use image::codecs::png::PngDecoder;
-use image::{ColorType, DynamicImage, ImageDecoder, Limits};
+use image::error::LimitErrorKind;
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, Limits};
 
 use crate::bounded;
 use crate::error::{Error, Kind, Result};
@@ -121,17 +122,29 @@ pub fn read(path: &Path) -> Result<Pixels> {
     fenced(|| decode(&bytes)).unwrap_or_else(|why| Err(why.to_owned())).map_err(failed)
 }
 
+/// Why a decoder refuses a picture, with the number of the limit where it is one.
+pub fn refusal(error: &ImageError) -> String {
+    match error {
+        ImageError::Limits(limit) => match (limit.kind(), Limits::default().max_alloc) {
+            (LimitErrorKind::DimensionError, _) => format!("it has more than {MAX_SIDE} pixels a side"),
+            (LimitErrorKind::InsufficientMemory, Some(most)) => format!("it takes more than {most} bytes"),
+            _ => error.to_string(),
+        },
+        error => error.to_string(),
+    }
+}
+
 /// The picture in PNG bytes; the error says what is wrong with them.
 fn decode(bytes: &[u8]) -> Result<Pixels, String> {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(|e| e.to_string())?;
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(|e| refusal(&e))?;
     // Cutting 16 bits down to 8 would hide differences.
     if !matches!(decoder.color_type(), ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8) {
         return Err("it has 16 bits a channel; only 8 are compared".to_owned());
     }
-    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?.into_rgba8();
+    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| refusal(&e))?.into_rgba8();
     let rgba = decoded.pixels().map(|pixel| pixel.0).collect();
     Ok(Pixels { width: decoded.width(), height: decoded.height(), rgba })
 }
@@ -210,5 +223,13 @@ mod tests {
         let mut wide = Vec::new();
         PngEncoder::new(&mut wide).write_image(&[0; 2], 1, 1, ExtendedColorType::L16).unwrap();
         assert!(decode(&wide).unwrap_err().contains("16 bits"));
+    }
+
+    #[test]
+    fn a_picture_beyond_a_limit_is_told_which() {
+        let mut bytes = Vec::new();
+        let encoder = PngEncoder::new(&mut bytes);
+        encoder.write_image(&[0; MAX_SIDE as usize + 1], MAX_SIDE + 1, 1, ExtendedColorType::L8).unwrap();
+        assert_eq!(decode(&bytes).unwrap_err(), "it has more than 16384 pixels a side");
     }
 }

@@ -12,7 +12,7 @@ use image::{AnimationDecoder, ColorType, DynamicImage, Frame, Frames, ImageDecod
 use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::fence::fenced;
-use drape::output::png::Pixels;
+use drape::output::png::{Pixels, refusal};
 use drape::texture::{MAX_SIDE, orientation};
 
 /// Endings of the names of files with pictures, in lower case.
@@ -78,7 +78,7 @@ impl Reel {
             Pictures::Still(picture) => Ok(picture.take().map(|pixels| Shown { pixels, delay: None })),
             Pictures::Moving(frames) => {
                 let next = fenced(|| frames.next().transpose()).map_err(|why| failed(&self.name, &why))?;
-                next.map(|frame| frame.map(shown)).map_err(|e| failed(&self.name, &e))
+                next.map(|frame| frame.map(shown)).map_err(|e| failed(&self.name, &refusal(&e)))
             }
         }
     }
@@ -96,34 +96,34 @@ fn png(bytes: Vec<u8>) -> Opened {
         return Err("the PNG is cut short, or has more behind its end".to_owned());
     }
     let kept = bytes.clone();
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits()).map_err(text)?;
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits()).map_err(|e| refusal(&e))?;
     // Cutting 16 bits down to 8 would hide differences.
     if !matches!(decoder.color_type(), ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8) {
         return Err("it has 16 bits a channel; only 8 are compared".to_owned());
     }
-    if !decoder.is_apng().map_err(text)? {
+    if !decoder.is_apng().map_err(|e| refusal(&e))? {
         return still(decoder, &kept);
     }
-    let decoder = decoder.apng().map_err(text)?;
+    let decoder = decoder.apng().map_err(|e| refusal(&e))?;
     Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
 }
 
 fn gif(bytes: Vec<u8>) -> Opened {
-    let mut decoder = GifDecoder::new(Cursor::new(bytes)).map_err(text)?;
-    decoder.set_limits(limits()).map_err(text)?;
+    let mut decoder = GifDecoder::new(Cursor::new(bytes)).map_err(|e| refusal(&e))?;
+    decoder.set_limits(limits()).map_err(|e| refusal(&e))?;
     Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
 }
 
 fn jpeg(bytes: Vec<u8>) -> Opened {
-    let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(text)?;
-    decoder.set_limits(limits()).map_err(text)?;
+    let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(|e| refusal(&e))?;
+    decoder.set_limits(limits()).map_err(|e| refusal(&e))?;
     still(decoder, &[])
 }
 
 /// The picture as it is shown: turned as its Exif data say.
 fn still(mut decoder: impl ImageDecoder, bytes: &[u8]) -> Opened {
-    let orientation = orientation(&mut decoder, bytes).map_err(text)?;
-    let mut decoded = DynamicImage::from_decoder(decoder).map_err(text)?;
+    let orientation = orientation(&mut decoder, bytes).map_err(|e| refusal(&e))?;
+    let mut decoded = DynamicImage::from_decoder(decoder).map_err(|e| refusal(&e))?;
     decoded.apply_orientation(orientation);
     Ok((0, Pictures::Still(Some(pixels(decoded)))))
 }
@@ -146,10 +146,6 @@ fn limits() -> Limits {
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits
-}
-
-fn text(cause: image::ImageError) -> String {
-    cause.to_string()
 }
 
 fn failed(name: &str, cause: &dyn std::fmt::Display) -> Error {
