@@ -25,6 +25,7 @@ mod plane;
 mod same_cell;
 pub(crate) mod self_collision;
 mod separation;
+mod slots;
 mod sphere;
 mod uniform_grid;
 

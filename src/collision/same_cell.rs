@@ -10,9 +10,10 @@ use std::ops::Range;
 use fearless_simd::Simd;
 use rayon::prelude::*;
 
-use super::cell::{Cell, Screen, Slots};
+use super::cell::Cell;
 use super::pairs::Pairs;
 use super::separation::Separation;
+use super::slots::{Screen, Slots};
 use super::uniform_grid::UniformGrid;
 use crate::cloth::grid::{Grid, Pins};
 use crate::cloth::{Counters, Points, chunks, filled, too_large};
