@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::scratch::Scratch;
-use crate::verify::assert_equal;
+use crate::verify::{assert_equal, render};
 
 #[test]
 fn numbered_pictures_and_animations_prove_themselves() {
@@ -18,17 +18,7 @@ fn numbered_pictures_and_animations_prove_themselves() {
             assert_eq!(run.code, Some(0), "{file}: {}", run.stderr);
         }
     }
-    scratch.succeed(&[
-        "render",
-        "small.json",
-        "b.png",
-        "--size",
-        "64x50",
-        "--frame",
-        "7",
-        "--shader",
-        "texture",
-    ]);
+    render(&scratch, "7", &["--shader", "texture"]);
     assert!(scratch.read("b.png") == scratch.read("f/1.png"), "each is the file that `render` writes");
 }
 

@@ -16,6 +16,12 @@ fn drawn(more: &[&str]) -> Scratch {
     scratch
 }
 
+/// Draws a frame of the small scene to `b.png`.
+pub(crate) fn render(scratch: &Scratch, frame: &str, more: &[&str]) {
+    let look = ["render", "small.json", "b.png", "--size", "64x50", "--frame", frame];
+    scratch.succeed(&[&look, more].concat());
+}
+
 /// The report on `a.png`, which must end with this exit code.
 fn report(scratch: &Scratch, code: i32, more: &[&str]) -> Value {
     let run = scratch.run(&[&["verify", "a.png", "--json"], more].concat());
@@ -93,17 +99,7 @@ fn a_picture_at_rest_and_one_from_a_state_are_those_of_their_frame() {
     assert_equal(&scratch, &[]);
     assert_equal(&scratch, &["--from-state", "s"]);
     let scratch = drawn(&["--save-state", "s"]);
-    scratch.succeed(&[
-        "render",
-        "small.json",
-        "b.png",
-        "--size",
-        "64x50",
-        "--frame",
-        "20",
-        "--from-state",
-        "s",
-    ]);
+    render(&scratch, "20", &["--from-state", "s"]);
     fs::rename(scratch.path("b.png"), scratch.path("a.png")).unwrap();
     assert_equal(&scratch, &[]);
     assert_equal(&scratch, &["--from-state", "s"]);
