@@ -103,8 +103,13 @@ impl Pins {
             }
             pinned[j * grid.width + i] = true;
         }
+        Ok(Self::of(pinned))
+    }
+
+    /// The pins of points of which `pinned` says whether each is.
+    pub(crate) fn of(pinned: Vec<bool>) -> Self {
         let free = free_runs(&pinned);
-        Ok(Self { pinned, free })
+        Self { pinned, free }
     }
 
     /// The pinned points in index order.

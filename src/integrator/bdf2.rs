@@ -51,7 +51,7 @@ impl Integrator for Bdf2 {
             Damping::PerSecond => (1.0 + beta * damping_rate(cloth.damping), 1.0),
         };
         Ok(Self {
-            newton: Newton::new(sim.tolerance, springs)?,
+            newton: Newton::new(cloth, sim, springs)?,
             euler: DampedStep::backward(cloth, sim),
             beta,
             drag,

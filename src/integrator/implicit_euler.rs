@@ -21,7 +21,7 @@ pub(super) struct ImplicitEuler {
 
 impl Integrator for ImplicitEuler {
     fn new(cloth: &Cloth, sim: &Sim, springs: &Springs) -> Result<Self> {
-        Ok(Self { step: DampedStep::backward(cloth, sim), newton: Newton::new(sim.tolerance, springs)? })
+        Ok(Self { step: DampedStep::backward(cloth, sim), newton: Newton::new(cloth, sim, springs)? })
     }
 
     fn step_bound(_cloth: &Cloth, _damping: Damping, _dt: f64) -> Option<StepBound> {

@@ -4,12 +4,20 @@
 //! the table below.
 
 mod bdf2;
+mod block_jacobi;
+mod blocks;
 mod conjugate_gradients;
 mod damped_step;
+mod dense;
 mod implicit_euler;
+mod matrix;
+mod multigrid;
 mod newton;
+mod preconditioner;
 mod rk4;
 mod stiffness;
+mod transfer;
+mod vectors;
 mod verlet;
 mod verlet_f32;
 mod xpbd;

@@ -5,12 +5,15 @@
 //! Each iteration steps along the Newton direction, and halves the step until the slope upwards at its
 //! end is at most half of the slope downwards at its start.
 
-use super::conjugate_gradients::{ConjugateGradients, Matrix, add, dot, length};
-use super::stiffness::Stiffness;
+use super::conjugate_gradients::ConjugateGradients;
+use super::matrix::Matrix;
+use super::preconditioner::Preconditioner;
+use super::vectors::{add, dot, length};
 use crate::cloth::forces::Forces;
 use crate::cloth::springs::Springs;
-use crate::cloth::{Counters, Model, Points, filled};
+use crate::cloth::{Counters, Model, Points};
 use crate::error::Result;
+use crate::scene::{Cloth, Sim};
 
 /// Most iterations in a step.
 const ITERATIONS: usize = 50;
@@ -35,23 +38,25 @@ pub(super) struct Newton {
     forces: Forces,
     residual: Points,
     linear: ConjugateGradients,
+    preconditioner: Preconditioner,
 }
 
 impl Newton {
-    /// The solver for `springs` that leaves at most the part `tolerance` of the forces unbalanced:
+    /// The solver for `cloth` with `springs` that leaves at most the part `sim.tolerance` of the forces unbalanced:
     /// the length of the residual over that of the weights and the springs' forces, over all points.
     ///
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
-    pub(super) fn new(tolerance: f64, springs: &Springs) -> Result<Self> {
+    pub(super) fn new(cloth: &Cloth, sim: &Sim, springs: &Springs) -> Result<Self> {
         let points = springs.grid.len();
         Ok(Self {
             target: Points::zeros(points)?,
-            matrix: Matrix { inertia: filled(points, 1.0)?, stiffness: Stiffness::new(springs)? },
-            tolerance,
+            matrix: Matrix::new(springs)?,
+            tolerance: sim.tolerance,
             forces: Forces::new(springs)?,
             residual: Points::zeros(points)?,
             linear: ConjugateGradients::new(points)?,
+            preconditioner: Preconditioner::new(cloth, sim, points)?,
         })
     }
 
@@ -63,9 +68,9 @@ impl Newton {
             iterations += 1;
             self.matrix.stiffness.update(x, model.springs);
             let target = (0.5 * goal).max(FORCING * length(&self.residual));
-            let Self { matrix, linear, residual, .. } = self;
-            let products = linear.solve(residual, target, matrix, model) as u64;
-            work.springs_evaluated += products * model.springs.len() as u64;
+            let Self { matrix, linear, preconditioner, residual, .. } = self;
+            preconditioner.update(x, matrix, model);
+            work.springs_evaluated += linear.solve(residual, target, matrix, preconditioner, model);
             (goal, moved) = self.line_search(x, model, work);
         }
         work.unsolved_steps += u64::from(!self.is_solved(goal));

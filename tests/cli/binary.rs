@@ -173,7 +173,7 @@ fn cloth_loops(functions: &BTreeMap<u64, Function>) -> [usize; 3] {
 fn the_loops_of_the_cloth_are_among_them() {
     let Some(functions) = of_the_program() else { return };
     let [forces, cells, limit] = cloth_loops(&functions);
-    assert_eq!(forces, 2, "forces with Verlet's scheme, and forces apart");
+    assert_eq!(forces, 3, "forces with Verlet's scheme, forces apart, and the stiffness of springs");
     assert_eq!([cells, limit], [1, 1], "cells of self-collision, and the stretch limit");
 }
 

@@ -268,8 +268,8 @@ fn a_wrong_figure_is_found() {
     assert_eq!(wrong(&first, &rows), Vec::<String>::new());
     for (right, other) in [
         ("3.65e-5 m", "3.66e-5 m"),
-        ("9.6 times", "9.5 times"),
-        ("9.6 times", "7.5 times"),
+        ("8.7 times", "8.6 times"),
+        ("8.7 times", "6.8 times"),
         ("[24e/2e]", "[2e/24e]"),
         ("[24e/2e]", "[24b/2e]"),
         ("[2b]", "[2a]"),
@@ -288,26 +288,39 @@ fn a_wrong_figure_is_found() {
     }
 }
 
-/// Every implicit row is worse than a row of Verlet's scheme that visits fewer springs.
+/// Every implicit row is worse than a row of Verlet's scheme that visits fewer springs, but for rough answers on stiff cloth:
+/// these visit fewer than every row of Verlet's scheme, and all of those are more accurate.
 #[test]
-fn no_implicit_method_is_on_the_front() {
+fn only_rough_answers_on_stiff_cloth_are_on_the_front() {
     let (text, rows) = page();
-    assert!(text.contains("**No implicit method is on the Pareto front**"));
+    assert!(
+        text.contains(
+            "**No implicit method is on the Pareto front** of speed and accuracy on the stock cloth"
+        )
+    );
+    assert!(text.contains("**On stiff cloth a rough answer by BDF2 visits fewer springs**"));
     let panel = |row: &Row| row.name.split(':').next().unwrap().to_owned();
     let implicit: Vec<&Row> =
         rows.iter().filter(|row| ["implicit", "BDF2"].iter().any(|name| row.name.contains(name))).collect();
     assert!(implicit.len() > 10, "{} rows", implicit.len());
+    let mut rough = 0;
     for row in implicit {
-        let is_worse_than = |other: &&Row| {
+        let is_more_accurate = |other: &Row| {
             let mut moments = (0..2).filter(|&moment| !row.value(moment).is_nan());
-            let [cost, other_cost] = [row, *other].map(|row| row.value(4));
-            other_cost < cost && moments.all(|moment| other.value(moment) < row.value(moment))
+            moments.all(|moment| other.value(moment) < row.value(moment))
         };
+        let is_cheaper = |other: &Row| other.value(4) < row.value(4);
         let mut verlet = rows
             .iter()
             .filter(|other| panel(other) == panel(row) && other.name.contains("Verlet, half-step start"));
-        assert!(verlet.any(|other| is_worse_than(&other)), "{row:?}");
+        if row.name.contains("loose") && !row.name.contains("8.33e4") {
+            rough += 1;
+            assert!(verlet.all(|other| is_more_accurate(other) && !is_cheaper(other)), "{row:?}");
+        } else {
+            assert!(verlet.any(|other| is_more_accurate(other) && is_cheaper(other)), "{row:?}");
+        }
     }
+    assert_eq!(rough, 2);
 }
 
 /// The command of a section makes the rows that it names.
