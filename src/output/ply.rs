@@ -52,6 +52,12 @@ mod tests {
         let header = bytes.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
         assert!(String::from_utf8_lossy(&bytes[..header]).contains("element vertex 7\n"));
         assert_eq!(bytes.len() - header, 7 * (3 * 8 + 5 * 4) + 3 * (1 + 3 * 4));
+        let mut single = part(3, &[[0, 1, 2]], &material);
+        single.uvs[0] = [0.25, 0.75];
+        let vertex = encode(&[single]).unwrap();
+        let start = vertex.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
+        let uv = &vertex[start + 3 * 8 + 3 * 4..][..8];
+        assert_eq!(uv, [0.25_f32, 0.25].map(f32::to_le_bytes).concat(), "t is counted from below");
         let last = &bytes[bytes.len() - 12..];
         assert_eq!(last, [4_u32, 5, 6].map(u32::to_le_bytes).concat(), "counted through all meshes");
     }

@@ -64,3 +64,32 @@ fn a_reader_that_leaves_is_no_failure() {
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
+
+/// A name with a place for a number is that of many files, or an error that says what would do.
+#[test]
+fn a_place_for_a_number_is_never_part_of_a_name() {
+    let scratch = Scratch::new();
+    let refused = |arguments: &[&str], part: &str| {
+        let run = scratch.run(arguments);
+        assert_eq!((run.code, run.stdout.len()), (Some(2), 0), "{arguments:?}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments:?}: {}", run.stderr);
+    };
+    for width in ["020", "00", "4", "099999999999999999999999"] {
+        let name = |ending: &str| format!("x%{width}d.{ending}");
+        for arguments in [
+            ["simulate", "small.json", "--frames", "2", "--positions", &name("npy")],
+            ["export", "small.json", "--frames", "0..2", "-q", &name("obj")],
+            ["animate", "small.json", "--frames", "0..2", "-q", &name("png")],
+            ["compare-positions", "small.json", "-q", "--tolerance", "1", &name("npy")],
+        ] {
+            refused(&arguments, "the limit is 19 digits");
+        }
+    }
+    refused(&["render", "small.json", "x%04d.png"], "%04d stands for the number of many");
+    refused(&["animate", "small.json", "x%d.gif", "--frames", "0..2"], "%d stands for");
+    refused(&["simulate", "small.json", "--csv", "x%d.csv"], "%d stands for");
+    assert_eq!(scratch.names(), ["small.json"]);
+    scratch.succeed(&["render", "small.json", "5% x.png", "--size", "8x8", "--frame", "0"]);
+    scratch.succeed(&["animate", "small.json", "x%019d.png", "--size", "8x8", "--frames", "0..1"]);
+    assert_eq!(scratch.names(), ["5% x.png", "small.json", "x0000000000000000000.png"]);
+}

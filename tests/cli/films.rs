@@ -34,7 +34,19 @@ fn a_film_is_what_ffmpeg_makes_of_the_pictures() {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     assert_eq!(scratch.read("a.mp4"), rendered(&scratch, &[0, 3, 6, 9]).concat());
     let arguments = String::from_utf8(scratch.read("args")).unwrap();
-    for option in ["-pixel_format rgb24", "-video_size 40x30", "-framerate 30", "-c:v libx264", "-f mp4"] {
+    for option in [
+        "-pixel_format rgb24",
+        "-video_size 40x30",
+        "-framerate 30",
+        "-c:v libx264",
+        "-f mp4",
+        // The colours that players assume, and the index before the pictures.
+        "out_color_matrix=bt709",
+        "-colorspace bt709",
+        "-color_primaries bt709",
+        "-color_range tv",
+        "-movflags +faststart",
+    ] {
         assert!(arguments.contains(option), "{arguments}");
     }
     assert_eq!(scratch.names(), ["a.mp4", "args", "bin", "small.json"]);

@@ -48,6 +48,25 @@ fn every_frame_has_a_file_and_numpy_reads_it() {
     assert_eq!(none.code, Some(6), "{}", none.stderr);
 }
 
+/// A program that reads all files of a dump would read those of a longer run with the others.
+#[test]
+fn files_of_an_earlier_run_are_warned_of() {
+    let scratch = Scratch::new();
+    let said = |frames: &str, every: &str| {
+        let words =
+            ["simulate", "small.json", "--frames", frames, "--positions", "p/%d.npy", "--every", every];
+        let run = scratch.run(&words);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    assert_eq!(said("6", "2"), "");
+    assert_eq!(said("6", "2"), "", "a run that writes them all again leaves none");
+    let shorter = said("3", "2");
+    assert!(shorter.contains("2 numbered files from p/4.npy on are of an earlier run"), "{shorter}");
+    let sparser = said("6", "3");
+    assert!(sparser.contains("2 numbered files from p/2.npy on"), "{sparser}");
+}
+
 #[test]
 fn two_files_of_positions_are_compared_directly() {
     let scratch = Scratch::new();

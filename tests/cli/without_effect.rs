@@ -39,6 +39,25 @@ fn options_that_change_nothing_are_named() {
     }
 }
 
+#[test]
+fn options_of_export_that_change_nothing_are_named() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("t")).unwrap();
+    let said = |arguments: &[&str]| {
+        let run = scratch.run(&[&["export", "small.json", "--frame", "0"], arguments].concat());
+        assert_eq!(run.code, Some(0), "{arguments:?}: {}", run.stderr);
+        run.stderr
+    };
+    for out in ["a.obj", "a.ply"] {
+        assert!(said(&[out, "--textures", "t"]).contains("--textures has no effect"), "{out}");
+    }
+    assert!(said(&["a.glb", "--materials"]).contains("--materials has no effect"));
+    for fine in [&["a.obj", "--materials", "--textures", "t"][..], &["a.glb", "--textures", "t"], &["a.ply"]]
+    {
+        assert!(!said(fine).contains("effect"), "{fine:?}");
+    }
+}
+
 /// Runs the program with a text as its standard input.
 fn fed(scratch: &Scratch, text: &str, arguments: &[&str]) -> Run {
     let mut command = scratch.command(arguments);

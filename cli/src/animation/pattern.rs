@@ -3,6 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::session::files::numbered::place;
+use crate::session::ui::Ui;
+use drape::error::{Error, Kind, Result};
+
 /// Most digits that a number is filled up to.
 const MAX_DIGITS: usize = 19;
 
@@ -17,17 +21,27 @@ pub(crate) struct Pattern {
 
 impl Pattern {
     /// The pattern in a path whose file name holds one `%d`, or `%04d` for at least four digits.
-    /// None if there is no such place, or several, or `%` elsewhere in the name.
-    pub(crate) fn parse(path: &Path) -> Option<Self> {
-        let (before, rest) = path.file_name()?.to_str()?.split_once('%')?;
-        let (digits, after) = rest.split_once('d')?;
-        let digits = match digits.strip_prefix('0') {
-            Some(digits) => digits.parse().ok().filter(|digits| (1..=MAX_DIGITS).contains(digits))?,
-            None if digits.is_empty() => 1,
-            None => return None,
+    /// None if there is no such place, or `%` elsewhere in the name.
+    ///
+    /// # Errors
+    /// [`Kind::Usage`] when the place has a width that no number is filled up to: the file would have the pattern as
+    /// its name.
+    pub(crate) fn parse(path: &Path) -> Result<Option<Self>> {
+        let Some([before, width, after]) = place(path) else { return Ok(None) };
+        let digits = match width.strip_prefix('0') {
+            Some(digits) => digits.parse().ok().filter(|digits| (1..=MAX_DIGITS).contains(digits)),
+            None => width.is_empty().then_some(1),
         };
-        let folder = path.parent()?.to_path_buf();
-        (!after.contains('%')).then(|| Self { folder, before: before.into(), digits, after: after.into() })
+        let digits = digits.ok_or_else(|| {
+            let message = format!(
+                "`{}`: %{width}d is no place for a number; the limit is {MAX_DIGITS} digits, and at least 1",
+                path.display()
+            );
+            let help = "write %04d for four digits, or %d for as many as a number has";
+            Error::new(Kind::Usage, message).with_help(help)
+        })?;
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Ok(Some(Self { folder, before: before.into(), digits, after: after.into() }))
     }
 
     /// The folder of all files; empty for the current one.
@@ -53,6 +67,18 @@ impl Pattern {
         files
     }
 
+    /// Warns of those numbered files that are there and whose number `is_left` by an earlier run: a program that
+    /// reads all of them mixes both.
+    pub(crate) fn caution(&self, is_left: impl Fn(u64) -> bool, ui: &Ui) {
+        let left: Vec<PathBuf> =
+            self.files().into_iter().filter(|(number, _)| is_left(*number)).map(|(_, file)| file).collect();
+        if let Some(first) = left.first() {
+            let message =
+                format!("{} numbered files from {} on are of an earlier run", left.len(), first.display());
+            ui.caution(&message, "remove them, or programs that read all files mix both");
+        }
+    }
+
     /// The number of the picture whose file name `path` has, in whatever folder.
     pub(crate) fn number(&self, path: &Path) -> Option<u64> {
         let name = path.file_name()?.to_str()?;
@@ -67,22 +93,31 @@ mod tests {
 
     #[test]
     fn a_pattern_has_one_place_for_the_number() {
-        let name = |text: &str| Pattern::parse(Path::new(text)).map(|pattern| pattern.path(7));
-        for (pattern, file) in [
+        let parse = |text: &str| Pattern::parse(Path::new(text));
+        for (text, file) in [
             ("a/%04d.png", "a/0007.png"),
             ("%d.png", "7.png"),
             ("a b/x%03dy.png", "a b/x007y.png"),
             ("100%/%01d.png", "100%/7.png"),
+            ("%019d.png", "0000000000000000007.png"),
         ] {
-            assert_eq!(name(pattern), Some(file.into()), "{pattern}");
-            let pattern = Pattern::parse(Path::new(pattern)).unwrap();
+            let pattern = parse(text).unwrap().unwrap();
+            assert_eq!(pattern.path(7), Path::new(file), "{text}");
             assert_eq!(pattern.number(Path::new(file)), Some(7));
             assert_eq!(pattern.number(Path::new("a/00000000007.png")), None);
         }
-        for wrong in ["a.png", "%d/a.png", "%.png", "%4d.png", "%00d.png", "%020d.png", "%d%d.png", "%x.png"]
-        {
-            assert_eq!(name(wrong), None, "{wrong}");
+        for none in ["a.png", "%d/a.png", "%.png", "%d%d.png", "%x.png", "5% dark.png"] {
+            assert_eq!(parse(none), Ok(None), "{none}");
         }
-        assert_eq!(Pattern::parse(Path::new("%02d.png")).unwrap().path(12345), Path::new("12345.png"));
+        for width in ["4", "0", "00", "020", "099999999999999999999999"] {
+            let error = parse(&format!("a/%{width}d.png")).unwrap_err();
+            assert_eq!(error.kind, Kind::Usage, "{width}");
+            assert!(
+                error.message.contains(&format!("%{width}d"))
+                    && error.message.contains("the limit is 19 digits"),
+                "{error:?}"
+            );
+        }
+        assert_eq!(parse("%02d.png").unwrap().unwrap().path(12345), Path::new("12345.png"));
     }
 }

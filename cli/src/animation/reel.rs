@@ -109,9 +109,31 @@ fn png(bytes: Vec<u8>) -> Opened {
 }
 
 fn gif(bytes: Vec<u8>) -> Opened {
+    // The decoder stops there: what follows, such as another GIF, would not be compared.
+    if gif_end(&bytes).is_some_and(|end| end != bytes.len()) {
+        return Err("the GIF has more behind its end".to_owned());
+    }
     let mut decoder = GifDecoder::new(Cursor::new(bytes)).map_err(|e| refusal(&e))?;
     decoder.set_limits(limits()).map_err(|e| refusal(&e))?;
     Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
+}
+
+/// Where a GIF ends; none if it is damaged, which the decoder tells.
+fn gif_end(bytes: &[u8]) -> Option<usize> {
+    let colors = |flags: u8| if flags & 0x80 == 0 { 0 } else { 6 << (flags & 7) };
+    let mut at = 13 + colors(*bytes.get(10)?);
+    loop {
+        at += match *bytes.get(at)? {
+            b';' => return Some(at + 1),
+            b',' => 11 + colors(*bytes.get(at + 9)?),
+            b'!' => 2,
+            _ => return None,
+        };
+        while let length @ 1.. = *bytes.get(at)? {
+            at += 1 + usize::from(length);
+        }
+        at += 1;
+    }
 }
 
 fn jpeg(bytes: Vec<u8>) -> Opened {

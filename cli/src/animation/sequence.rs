@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn only_a_complete_file_of_the_same_frame_and_scene_counts() {
         let dir = tempfile::tempdir().unwrap();
-        let pattern = Pattern::parse(&dir.path().join("%d.png")).unwrap();
+        let pattern = Pattern::parse(&dir.path().join("%d.png")).unwrap().unwrap();
         let path = pattern.path(0);
         let of = |scene: &str| Provenance { scene: scene.to_owned(), ..Provenance::default() };
         let [a, b] =

@@ -48,10 +48,11 @@ impl Target {
     pub(crate) fn parse(path: &Path) -> Result<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let format = FORMATS.iter().copied().find(|format| Some(format.ending) == ending.as_deref());
-        let file = format.map(|format| Self::File(path.into(), format));
-        let sequence =
-            || Some(Self::Sequence(Pattern::parse(path).filter(|_| ending.as_deref() == Some("png"))?));
-        file.or_else(sequence).ok_or_else(|| {
+        if let Some(format) = format {
+            return Ok(Self::File(path.into(), format));
+        }
+        let pattern = Pattern::parse(path)?.filter(|_| ending.as_deref() == Some("png"));
+        pattern.map(Self::Sequence).ok_or_else(|| {
             let message = format!("`{}` does not name an animation", path.display());
             let help = format!("the formats are {}, and numbered PNG files: frames/%04d.png", endings(1));
             Error::new(Kind::Usage, message).with_help(help)

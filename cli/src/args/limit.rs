@@ -23,7 +23,9 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     };
     let bytes =
         number.parse::<u64>().ok().zip(shift).and_then(|(number, shift)| number.checked_mul(1 << shift));
-    bytes.ok_or_else(|| "allowed: a whole number of bytes, such as 1000000, 500M or 2G".to_owned())
+    bytes.ok_or_else(|| {
+        format!("allowed: a whole number of bytes, such as 1000000, 500M or 2G, at most {}", u64::MAX)
+    })
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::flag::seconds;
+use super::frames::frame;
 use crate::run::advance::Until;
 use crate::session::Session;
 use drape::bounded;
@@ -105,7 +106,7 @@ pub(crate) struct Moment {
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]
     time: Option<f64>,
     /// Number of the frame, instead of --time; 0 is the start
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     frame: Option<u64>,
     /// Simulate until the cloth is at rest, at most until --time or --frame (default: 60 s). If it is not at rest by
     /// then, the results are written and the exit code is 1

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::args::flag::seconds;
+use crate::args::frames::frame;
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -35,7 +36,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]
     time: Option<f64>,
     /// Number of the frame, instead of --time
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     frame: Option<u64>,
     /// Write the choice to this file as a JSON merge patch, for --patch of the other commands
     #[arg(long, value_name = "FILE")]

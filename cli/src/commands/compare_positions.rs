@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::animation::pattern::Pattern;
-use crate::args::frames::Frames;
+use crate::args::frames::{Frames, frame};
 use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
@@ -32,7 +32,7 @@ pub(crate) struct Args {
     #[arg(long)]
     no_diagnosis: bool,
     /// The frame of the state in the file, if there is one state (default: that of the scene's render.time)
-    #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = clap::value_parser!(u64).range(..u64::MAX))]
+    #[arg(long, value_name = "N", conflicts_with = "frames", value_parser = frame)]
     frame: Option<u64>,
     /// The frames of the states in the file, from A to B, without B (default: derived from the number of states)
     #[arg(long, value_name = "A..B")]
@@ -113,7 +113,7 @@ impl Args {
 
     /// The states of the other program, and the first one's frame if their names say it.
     fn read(&self, grid: [usize; 2]) -> Result<(Option<u64>, Vec<State>)> {
-        let Some(pattern) = Pattern::parse(&self.file) else {
+        let Some(pattern) = Pattern::parse(&self.file)? else {
             return Ok((None, grader::read(&self.file, grid)?));
         };
         if self.frame.is_some() || self.frames.is_some() {

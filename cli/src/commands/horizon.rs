@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use crate::args::flag::seconds;
+use crate::args::frames::frame;
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -27,7 +28,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]
     time: Option<f64>,
     /// Number of the frame, instead of --time
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     frame: Option<u64>,
 }
 

@@ -7,6 +7,7 @@ use crate::args::provenance::Detail;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::{Content, is_stdout};
+use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 use drape::output::provenance::{Arguments, Provenance};
 use drape::output::raw;
@@ -33,8 +34,11 @@ pub(super) struct PositionsArgs {
 
 impl PositionsArgs {
     /// The names of the files, if each frame has one.
-    fn pattern(&self) -> Option<Pattern> {
-        self.positions.as_deref().and_then(Pattern::parse)
+    ///
+    /// # Errors
+    /// As [`Pattern::parse`].
+    fn pattern(&self) -> Result<Option<Pattern>> {
+        self.positions.as_deref().map_or(Ok(None), Pattern::parse)
     }
 
     /// What each file says of itself, if that was asked for.
@@ -52,9 +56,9 @@ impl PositionsArgs {
     /// The files that are written first.
     ///
     /// # Errors
-    /// [`Kind::Io`] when the folder of numbered files cannot be made.
+    /// [`Kind::Io`] when the folder of numbered files cannot be made; as [`Pattern::parse`].
     pub(super) fn outputs(&self) -> Result<Vec<(PathBuf, Content)>> {
-        let pattern = self.pattern();
+        let pattern = self.pattern()?;
         if let Some(pattern) = pattern.as_ref().filter(|pattern| !pattern.folder().as_os_str().is_empty()) {
             outputs::make_folder(pattern.folder())?;
         }
@@ -76,7 +80,7 @@ impl PositionsArgs {
         simulation: &Simulation,
     ) -> Result<()> {
         let frame = simulation.frame();
-        match self.pattern() {
+        match self.pattern()? {
             Some(pattern) if frame.is_multiple_of(self.every) => {
                 write(&pattern.path(frame), scene, provenance, simulation)
             }
@@ -84,7 +88,7 @@ impl PositionsArgs {
         }
     }
 
-    /// Writes the last positions, where there is one file.
+    /// Writes the last positions, where there is one file; of many, warns of those that an earlier run has left.
     ///
     /// # Errors
     /// As [`atomic::write`].
@@ -93,11 +97,17 @@ impl PositionsArgs {
         scene: &Scene,
         provenance: Option<&Provenance>,
         simulation: &Simulation,
+        ui: &Ui,
     ) -> Result<()> {
-        match &self.positions {
-            Some(path) if self.pattern().is_none() => write(path, scene, provenance, simulation),
-            _ => Ok(()),
+        match (&self.positions, self.pattern()?) {
+            (Some(path), None) => write(path, scene, provenance, simulation)?,
+            // Those of earlier frames belong to a run that this one may have gone on from.
+            (_, Some(pattern)) => {
+                pattern.caution(|frame| frame > simulation.frame() || !frame.is_multiple_of(self.every), ui)
+            }
+            (None, None) => {}
         }
+        Ok(())
     }
 }
 

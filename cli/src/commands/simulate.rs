@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::positions::PositionsArgs;
 use crate::args::flag::seconds;
+use crate::args::frames::frame;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
@@ -32,7 +33,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
     time: Option<f64>,
     /// Number of frames to simulate, instead of --time
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = frame)]
     frames: Option<u64>,
     /// Simulate until the cloth is at rest, at most until --time or --frames (default: 60 s). If it is not at rest
     /// by then, the results are written and the exit code is 1
@@ -104,7 +105,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     });
     let ended = args.write_failed(table.as_ref(), ended)?;
     saving.finish(&simulation, ended.seen)?;
-    args.positions.finish(scene, said, &simulation)?;
+    args.positions.finish(scene, said, &simulation, &session.ui)?;
     args.write_table(table.as_ref())?;
     if args.bench {
         session.print_json(&bench(&simulation, scene, ended.elapsed))?;

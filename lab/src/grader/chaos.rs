@@ -2,44 +2,82 @@
 
 use super::case::{Case, Ours, ROUNDING, largest};
 use super::trials::WINDOW;
-use super::watch::{Event, Watch};
+use super::watch::{Event, Run, Watch};
 use drape::cloth::{Counters, Points};
 use drape::error::{Kind, Result};
 use drape::math::splitmix64;
 use drape::simulation::Simulation;
 
-/// How much farther from ours another program may be than ours is from itself with one rounding changed: it
-/// rounds anew in every step.
+/// How much farther from ours another program may at least be than ours is from itself with one rounding changed.
 const MARGIN: f64 = 1e5;
 
-/// Whether rounding makes distances as large as these from the first state on: our own method, started from
-/// points of which each has another last bit, is as far from itself, but for a margin.
-///
-/// # Errors
-/// Those of the simulation, and of `watch`.
-pub(super) fn reaches(case: &Case<'_>, distances: &[f64], watch: Watch<'_>) -> Result<bool> {
-    let start = Simulation::starting_at(case.scene, case.start.as_ref())?.positions().clone();
-    let mut twin = Simulation::starting_at(case.scene, Some(&nudged(&start)))?;
-    twin.allow_unstable();
-    let last = case.frame(distances.len().saturating_sub(1));
-    watch(Event::Stage("running the method with another rounding, frames".into(), last))?;
-    let mut most = f64::EPSILON;
-    for (k, &distance) in distances.iter().enumerate() {
-        while twin.frame() < case.frame(k) {
-            watch(Event::Frames(1))?;
-            match twin.advance_frame() {
-                Err(error) if error.kind == Kind::Unstable => return Ok(true),
-                ended => ended?,
+/// The largest factor by which a difference of rounding grows from one frame to the next where nothing hits hard.
+const GROWTH: f64 = 1e4;
+
+/// How rounding alone grows: distances of our own method from itself, started from points of which each has another
+/// last bit. They are as many as were asked for; infinite from where the copy is unstable.
+pub(super) struct Twin {
+    distances: Vec<f64>,
+    steps_per_frame: f64,
+}
+
+impl Twin {
+    /// Runs the copy for the first `count` states.
+    ///
+    /// # Errors
+    /// Those of the simulation, and of `watch`.
+    pub(super) fn new(case: &Case<'_>, count: usize, watch: Watch<'_>) -> Result<Self> {
+        let start = Simulation::starting_at(case.scene, case.start.as_ref())?.positions().clone();
+        let mut twin = Simulation::starting_at(case.scene, Some(&nudged(&start)))?;
+        twin.allow_unstable();
+        let last = case.frame(count.saturating_sub(1));
+        watch(Event::Stage("running the method with another rounding, frames".into(), last))?;
+        let run = Run::new(watch, last);
+        let mut distances = Vec::new();
+        'states: for (k, Ours { positions: ours, .. }) in case.ours.iter().enumerate().take(count) {
+            while twin.frame() < case.frame(k) {
+                run.frame()?;
+                match twin.advance_frame() {
+                    Err(error) if error.kind == Kind::Unstable => break 'states,
+                    ended => ended?,
+                }
             }
+            let positions = twin.positions();
+            let theirs: Vec<[f64; 3]> = (0..positions.len()).map(|p| positions.get(p).into()).collect();
+            distances.push(largest(ours, &theirs));
         }
-        let positions = twin.positions();
-        let theirs: Vec<[f64; 3]> = (0..positions.len()).map(|p| positions.get(p).into()).collect();
-        most = largest(&case.ours[k].positions, &theirs).max(most);
-        if distance > ROUNDING && distance > MARGIN * most {
-            return Ok(false);
-        }
+        run.finish()?;
+        distances.resize(count, f64::INFINITY);
+        Ok(Self { distances, steps_per_frame: f64::from(case.scene.sim.steps_per_frame) })
     }
-    Ok(true)
+
+    /// Whether rounding makes `distances` as large as these from the first state on.
+    pub(super) fn reaches(&self, case: &Case<'_>, distances: &[f64]) -> bool {
+        let mut most = f64::EPSILON;
+        distances.iter().zip(&self.distances).enumerate().all(|(k, (&theirs, &twin))| {
+            most = twin.max(most);
+            // A program rounds anew in each step; of a point that moves freely that adds up to this many roundings.
+            let anew = (case.frame(k) as f64 * self.steps_per_frame).powf(1.5);
+            theirs <= ROUNDING || theirs <= MARGIN.max(anew) * most
+        })
+    }
+
+    /// Whether every jump of `distances` from one state to the next is where the copy jumps too, as in a hard contact.
+    pub(super) fn jumps_with(&self, distances: &[f64]) -> bool {
+        let floor = |distance: f64| distance.max(f64::EPSILON);
+        let jump = |pair: &[f64]| (floor(pair[1]) / floor(pair[0])).max(1.0);
+        let pairs = distances.windows(2).zip(self.distances.windows(2));
+        distances.first().is_none_or(|&first| first <= ROUNDING)
+            && pairs.into_iter().all(|(theirs, twin)| jump(theirs) <= GROWTH * jump(twin))
+    }
+}
+
+/// Whether distances grew from those of rounding over some frames, without a jump.
+pub(super) fn grew(distances: &[f64]) -> bool {
+    let seen: Vec<f64> = distances.iter().copied().skip_while(|&distance| distance == 0.0).collect();
+    let starts_small = seen.first().is_some_and(|&first| first <= ROUNDING);
+    let slowly = seen.as_slice().windows(2).all(|pair| pair[1] <= GROWTH * pair[0]);
+    starts_small && slowly && seen.len() > 2
 }
 
 /// The points with the last bit of each coordinate up or down.
@@ -55,12 +93,10 @@ fn nudged(start: &Points) -> Points {
 /// How many points or springs a phase has moved.
 type Moves = fn(&Counters) -> u64;
 
-/// The verdict on a difference that grew out of rounding and is clear at state `k`: up to when the programs agree, and
-/// what was not tested by then.
-pub(super) fn words(case: &Case<'_>, k: usize) -> String {
+/// The verdict on a difference that `grew` out of rounding and is clear at state `k`: up to when the programs agree,
+/// and what was not tested by then.
+pub(super) fn words(case: &Case<'_>, k: usize, grew: &str) -> String {
     let frame = case.frame(k);
-    let grew = "this grew out of rounding without a jump, as it does after contact: up to then it is the same method with \
-                its operations in another order";
     let phases: [(&str, Moves); 3] = [
         ("self-collision", |counters| counters.self_collision_moves),
         ("collision with objects", |counters| counters.object_moves),
@@ -78,7 +114,30 @@ pub(super) fn words(case: &Case<'_>, k: usize) -> String {
         names => format!(", which acted too late for that: {}", names.join(", ")),
     };
     format!(
-        "{grew}. From frame {frame} on nothing can be told: there rounding alone is larger than 1 µm, and a mistake that \
+        "{grew}: up to then it is the same method with its operations in another order. From frame {frame} on nothing can be told: there rounding alone is larger than 1 µm, and a mistake that \
          first acts then looks the same{late}. To test it, compare a scene in which it acts sooner, or a smaller cloth"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_grows_and_mistakes_jump() {
+        assert!(grew(&[0.0, 1e-16, 1e-14, 3e-13, 2e-10, 1e-7, 1e-5]));
+        assert!(!grew(&[1e-16, 1e-14, 3e-13, 1e-5]), "a jump");
+        assert!(!grew(&[0.0, 1e-16, 0.0, 1e-5]), "a jump from nothing");
+        assert!(!grew(&[1e-9, 1e-8, 1e-7, 1e-5]), "too large at first");
+        assert!(!grew(&[1e-12, 1e-5]), "too few");
+    }
+
+    #[test]
+    fn a_jump_of_rounding_is_one_of_the_copy_too() {
+        let twin = Twin { distances: vec![1e-16, 2e-16, 1e-8, 1e-7], steps_per_frame: 30.0 };
+        assert!(twin.jumps_with(&[0.0, 0.0, 1e-6]), "where the copy jumps");
+        assert!(!twin.jumps_with(&[0.0, 1e-6, 1e-5]), "before it");
+        assert!(!twin.jumps_with(&[0.0, 0.0, 1e-16, 1e-5]), "behind it");
+        assert!(!twin.jumps_with(&[1e-9, 1e-8]), "from the start on");
+    }
 }

@@ -5,7 +5,7 @@
 //! whose difference is too large for rounding.
 
 use super::case::{Case, ROUNDING, largest_beyond};
-use super::chaos;
+use super::chaos::{self, Twin};
 use super::mistakes::{self, Mistake};
 use super::numbers::{NUMBERS, Target};
 use super::precision::Precision;
@@ -20,9 +20,6 @@ use rayon::prelude::*;
 
 /// The smallest difference that rounding cannot make before contact, in metres.
 const CLEAR: f64 = 1e-6;
-
-/// The largest factor by which a difference of rounding grows from one frame to the next.
-const GROWTH: f64 = 1e4;
 
 /// A mistake that leaves less than this part of the difference is similar to what the other program does.
 const RESEMBLES: f64 = 0.3;
@@ -58,14 +55,17 @@ impl Verdict {
         if let Some(words) = other_frame(case, k, precision, watch)? {
             return Ok(Self::only(words));
         }
-        if grew(&distances[..=k]) && chaos::reaches(case, &distances[..=k], watch)? {
-            return Ok(Self::only(chaos::words(case, k)));
+        let seen = &distances[..=k];
+        if chaos::grew(seen) && Twin::new(case, seen.len(), watch)?.reaches(case, seen) {
+            let grew = "this grew out of rounding without a jump, as it does after contact";
+            return Ok(Self::only(chaos::words(case, k, grew)));
         }
-        Self::by_trials(case, k, precision, watch)
+        Self::by_trials(case, seen, precision, watch)
     }
 
-    /// The verdict on state `k` after running the mistakes.
-    fn by_trials(case: &Case<'_>, k: usize, precision: &Precision, watch: Watch<'_>) -> Result<Self> {
+    /// The verdict on the last state of `seen`, the first that is clearly off, after running the mistakes.
+    fn by_trials(case: &Case<'_>, seen: &[f64], precision: &Precision, watch: Watch<'_>) -> Result<Self> {
+        let k = seen.len() - 1;
         let mut mistakes =
             trials::run("known mistakes", case, &mistakes::all(case.scene), k, precision, watch)?;
         if mistakes.first().is_none_or(|best| !best.explains()) {
@@ -82,7 +82,7 @@ impl Verdict {
             Some(best) if best.left <= RESEMBLES => {
                 format!("this is most like the mistake: {}", best.mistake)
             }
-            _ => suspects(case, case.ours[k].counters) + &hidden(case, k, precision),
+            _ => unexplained(case, seen, precision, watch)?,
         };
         Ok(Self { words, mistakes })
     }
@@ -181,6 +181,19 @@ fn wrong_numbers(case: &Case<'_>, k: usize, watch: Watch<'_>) -> Result<Vec<Mist
     Ok(fitted.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
+/// The verdict on the last state of `seen` when no mistake explains it: rounding, where a hard contact makes it as large
+/// at once, or else another mistake.
+fn unexplained(case: &Case<'_>, seen: &[f64], precision: &Precision, watch: Watch<'_>) -> Result<String> {
+    let k = seen.len() - 1;
+    let twin = Twin::new(case, seen.len(), watch)?;
+    if twin.reaches(case, seen) && twin.jumps_with(seen) {
+        let grew = "none of the known mistakes explains the difference, and rounding alone grows as fast in such a \
+                    contact";
+        return Ok(chaos::words(case, k, grew));
+    }
+    Ok(suspects(case, case.ours[k].counters) + &hidden(case, k, precision))
+}
+
 /// The verdict when no mistake explains the difference: what had acted on the cloth before it.
 fn suspects(case: &Case<'_>, counters: Counters) -> String {
     let touched = counters.object_moves > 0;
@@ -221,26 +234,4 @@ fn hidden(case: &Case<'_>, k: usize, precision: &Precision) -> String {
         ". The file has {digits}, behind which rounding may have grown since the first contact: write 17 digits \
          (%.17g) to tell it from a mistake"
     )
-}
-
-/// Whether distances grew from those of rounding over some frames, without a jump.
-fn grew(distances: &[f64]) -> bool {
-    let seen: Vec<f64> = distances.iter().copied().skip_while(|&distance| distance == 0.0).collect();
-    let starts_small = seen.first().is_some_and(|&first| first <= ROUNDING);
-    let slowly = seen.as_slice().windows(2).all(|pair| pair[1] <= GROWTH * pair[0]);
-    starts_small && slowly && seen.len() > 2
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounding_grows_and_mistakes_jump() {
-        assert!(grew(&[0.0, 1e-16, 1e-14, 3e-13, 2e-10, 1e-7, 1e-5]));
-        assert!(!grew(&[1e-16, 1e-14, 3e-13, 1e-5]), "a jump");
-        assert!(!grew(&[0.0, 1e-16, 0.0, 1e-5]), "a jump from nothing");
-        assert!(!grew(&[1e-9, 1e-8, 1e-7, 1e-5]), "too large at first");
-        assert!(!grew(&[1e-12, 1e-5]), "too few");
-    }
 }

@@ -38,7 +38,7 @@ pub(crate) fn parse(diagnostics: &mut Diagnostics, source: usize, start: usize) 
     let text = whole.get(start..).unwrap_or("");
     let mut tree = Tree { diagnostics, source, start };
     match parse_to_ast(text, &CollectOptions::default(), &STRICT) {
-        Err(error) => tree.syntax_error(&error),
+        Err(error) => tree.syntax_error(&error, text),
         Ok(parsed) => match (parsed.value, loose_character(text)) {
             (_, Some((range, reason))) => tree.not_json(range, reason),
             (Some(value), None) => tree.node(value, &Path::ROOT),
@@ -118,9 +118,13 @@ impl Tree<'_> {
         None
     }
 
-    fn syntax_error<T>(&mut self, error: &ParseError) -> Option<T> {
+    fn syntax_error<T>(&mut self, error: &ParseError, text: &str) -> Option<T> {
         match error.kind() {
             ParseErrorKind::NestingDepthExceeded => self.too_deep(self.span(error.range())),
+            // A comment as in Python or YAML, of which the parser does not know.
+            _ if text.get(error.range().start..).is_some_and(|rest| rest.starts_with('#')) => {
+                self.not_json(error.range(), &reason(&ParseErrorKind::CommentsNotAllowed))
+            }
             kind => self.not_json(error.range(), &reason(kind)),
         }
     }

@@ -16,7 +16,7 @@ use drape::error::{Error, Kind, Result};
 use drape::output::compare::{Budget, difference_picture};
 use drape::output::png::{self, Effort, Pixels};
 use drape_lab::page::{self, comparison::Row};
-use folders::{Folders, Listed, Unreadable};
+use folders::{Folders, Listed};
 use mask::Mask;
 use pair::{Comparison, Rules};
 use verdict::{shown, verdict};
@@ -88,9 +88,10 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
         return Err(Error::new(Kind::Usage, "--diff compares two pictures, not folders")
             .with_help("use --html for folders"));
     }
-    let [a, b] = [Listed::of(&args.expected)?, Listed::of(&args.actual)?];
+    let [a, b] = [Listed::of(&args.expected), Listed::of(&args.actual)];
     let (in_a, in_b) = (a.pictures, b.pictures);
-    if in_a.is_empty() && in_b.is_empty() {
+    let unread = || a.unread.iter().chain(&b.unread);
+    if in_a.is_empty() && in_b.is_empty() && unread().next().is_none() {
         return Err(Error::new(Kind::Nothing, "neither folder contains a picture"));
     }
     let mut text = page::head("Comparison");
@@ -101,6 +102,9 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
         unreadable: Vec::new(),
         not_compared: a.others.union(&b.others).map(shown).collect(),
     };
+    for (name, why) in unread() {
+        folders.note_unread(name, why.clone(), &mut text);
+    }
     for name in in_a.intersection(&in_b) {
         session.stop.check()?;
         match pair::compare(&args.expected.join(name), &args.actual.join(name), rules) {
@@ -110,11 +114,7 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
                 }
                 folders.pictures.push(comparison);
             }
-            Err(error) if error.kind == Kind::Io => {
-                let (name, why) = (shown(name), error.message);
-                text += &page::comparison::unread(&name, &why);
-                folders.unreadable.push(Unreadable { name, why });
-            }
+            Err(error) if error.kind == Kind::Io => folders.note_unread(name, error.message, &mut text),
             Err(error) => return Err(error),
         }
     }

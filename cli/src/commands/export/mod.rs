@@ -15,6 +15,7 @@ use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
+use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 use drape::math::StateHash;
 use drape::output::gltf::{Motion, Shape};
@@ -80,6 +81,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (frames, until) = args.frames(scene)?;
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     args.provenance.caution(&args.mesh, format == Format::Glb, &session.ui);
+    args.caution(format, &session.ui);
     let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
     writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
@@ -129,6 +131,20 @@ fn add(motion: &mut Motion, states: &mut StateHash, frames: &Frames, simulation:
 }
 
 impl Args {
+    /// Warns of options that change nothing.
+    fn caution(&self, format: Format, ui: &Ui) {
+        let is_glb = format == Format::Glb;
+        if self.materials && is_glb {
+            ui.caution("--materials has no effect: a .glb always has materials", "");
+        }
+        if self.textures.is_some() && !self.materials && !is_glb {
+            ui.caution(
+                "--textures has no effect: only materials have textures",
+                "add --materials, or name a .glb",
+            );
+        }
+    }
+
     /// The frames that are exported, and how far the scene is simulated.
     fn frames(&self, scene: &Scene) -> Result<(std::ops::Range<u64>, Until)> {
         let Some(Frames(frames)) = &self.frames else {
@@ -147,7 +163,7 @@ impl Args {
 
     /// The pattern of numbered files, which go with --frames.
     fn pattern(&self) -> Result<Option<Pattern>> {
-        let pattern = Pattern::parse(&self.mesh);
+        let pattern = Pattern::parse(&self.mesh)?;
         let format = Format::of(&self.mesh)?;
         let usage = |message: String, help: &str| Err(Error::new(Kind::Usage, message).with_help(help));
         match (&pattern, &self.frames, format) {

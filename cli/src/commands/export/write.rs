@@ -141,16 +141,8 @@ impl Writer<'_> {
 
     /// Warns of numbered files from `count` on, which an earlier, longer run has left.
     pub(super) fn stale(&self, count: u64, session: &Session) {
-        let Some(pattern) = &self.pattern else { return };
-        let left = pattern.files().into_iter().filter(|(number, _)| *number >= count).count();
-        if left > 0 {
-            session.ui.caution(
-                &format!(
-                    "{left} numbered files from {} on are of an earlier run",
-                    pattern.path(count).display()
-                ),
-                "remove them, or programs that read all files mix both",
-            );
+        if let Some(pattern) = &self.pattern {
+            pattern.caution(|number| number >= count, &session.ui);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod target;
 mod temporary;
+pub(crate) mod numbered;
 pub(crate) mod atomic;
 pub(crate) mod staged;
 pub(crate) mod outputs;

@@ -38,6 +38,8 @@ fn text_that_is_not_json_is_refused_where_it_goes_wrong() {
         ("{\"sim\": {} \"light\": {}}", 1, 11, "expected `,`"),
         ("{sim: {}}", 1, 2, "expected string for object property"),
         ("{'sim': {}}", 1, 2, "single-quoted strings are not allowed"),
+        ("# x\n{}", 1, 1, "comments are not allowed"),
+        ("{\n# x\n}", 2, 1, "comments are not allowed"),
         ("{} // x", 1, 4, "comments are not allowed: a scene is plain JSON, as in the course's viewer"),
         ("{\"sim\": tru}", 1, 9, "this is no JSON value"),
         ("{\"sim\": .5}", 1, 9, "leading or trailing decimal points on numbers are not allowed"),
