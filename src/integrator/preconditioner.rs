@@ -68,6 +68,7 @@ mod tests {
     use super::*;
     use crate::cloth::grid::{self, Grid, Pins};
     use crate::cloth::springs::Springs;
+    use crate::lanes::level::Level;
     use crate::math::splitmix64;
     use crate::scene::{Vec3, load_text};
 
@@ -139,10 +140,11 @@ mod tests {
     }
 
     /// The solution is the same whatever the preconditioner. Blocks take fewer visits of the springs than the diagonal
-    /// alone (Jacobi), the diagonal fewer than nothing; and the stiffer the cloth, the more multigrid saves.
+    /// alone (Jacobi), the diagonal fewer than nothing. Multigrid takes fewest, even here, where points are displaced at
+    /// random, so that the springs of coarser grids are least like the fine ones.
     #[test]
     fn each_preconditioner_saves_what_it_should() {
-        for (stiffness, of_diagonal, of_blocks) in [(1e2, 1.0, 1.0), (1e4, 1.0, 0.7), (1e6, 1.0, 0.7)] {
+        for (stiffness, of_diagonal, of_blocks) in [(1e2, 1.0, 1.0), (1e4, 1.0, 0.7), (1e6, 1.0, 0.9)] {
             let mut cloth = Pulled::new([33, 20], &[[0, 0], [32, 0]], stiffness);
             let (solution, blocks) = {
                 let mut blocks = cloth.preconditioner(false);
@@ -204,6 +206,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Copies of the loops for wider vectors do the same operations.
+    #[test]
+    fn every_level_gives_the_same_bits() {
+        let mut first = None;
+        Level::for_each(|level| {
+            let mut cloth = Pulled::new([19, 14], &[[0, 0], [5, 5]], 1e4);
+            let [blocks, multigrid] = [false, true].map(|is_multigrid| {
+                let mut preconditioner = cloth.preconditioner(is_multigrid);
+                cloth.solve(&mut preconditioner).0
+            });
+            let found = [blocks, multigrid];
+            assert!(*first.get_or_insert_with(|| found.clone()) == found, "{level:?}");
+        });
     }
 
     /// On a grid of 2 x 2 points a cycle is the solution.

@@ -74,6 +74,12 @@ fn jobs() -> Vec<Job> {
     for integrator in ["rk4", "xpbd", "implicit_euler", "bdf2"] {
         jobs.push(Box::new(move || states("sphere", 5, &[&format!("sim.integrator=\"{integrator}\"")])));
     }
+    // Springs that are stiff for the step, so that multigrid preconditions it.
+    for integrator in ["implicit_euler", "bdf2"] {
+        let own = format!("sim.integrator=\"{integrator}\"");
+        let stiff = move |own: &str| states("pinned2", 5, &[own, "sim.steps_per_frame=1", "cloth.ks=500000"]);
+        jobs.push(Box::new(move || stiff(&own)));
+    }
     for set in ["sim.precision=\"f32\"", "sim.start=\"half_step\"", "sim.self_collision=\"neighbors\""] {
         jobs.push(Box::new(move || states("pinned2", 10, &[set])));
     }
