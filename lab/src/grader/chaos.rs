@@ -57,7 +57,8 @@ impl Twin {
         distances.iter().zip(&self.distances).enumerate().all(|(k, (&theirs, &twin))| {
             most = twin.max(most);
             // A program rounds anew in each step; of a point that moves freely that adds up to this many roundings.
-            let anew = (case.frame(k) as f64 * self.steps_per_frame).powf(1.5);
+            let steps = case.frame(k) as f64 * self.steps_per_frame;
+            let anew = steps * steps.sqrt();
             theirs <= ROUNDING || theirs <= MARGIN.max(anew) * most
         })
     }
