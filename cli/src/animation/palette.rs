@@ -158,8 +158,8 @@ mod tests {
                 .map(|c| (c * 255.0).min(255.0) as u8)
         };
         let smooth: Vec<u8> = (0..4096).flat_map(shade).collect();
-        assert!(error(&smooth) < 0.4, "{}", error(&smooth));
+        assert!(error(&smooth) < 0.001, "{}", error(&smooth));
         let noise: Vec<u8> = (0..12_000_u64).map(|i| drape::math::splitmix64(i) as u8).collect();
-        assert!(error(&noise) < 16.0, "{}", error(&noise));
+        assert!(error(&noise) < 9.0, "{}", error(&noise));
     }
 }

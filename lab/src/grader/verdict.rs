@@ -79,10 +79,7 @@ impl Verdict {
                 let names: Vec<&str> = all.map(|tried| tried.mistake.as_str()).collect();
                 format!("this behaves like the mistake: {}", names.join("; or: "))
             }
-            Some(best) if best.left <= RESEMBLES => {
-                format!("this is most like the mistake: {}", best.mistake)
-            }
-            _ => unexplained(case, seen, precision, watch)?,
+            best => unexplained(case, seen, best, precision, watch)?,
         };
         Ok(Self { words, mistakes })
     }
@@ -182,8 +179,14 @@ fn wrong_numbers(case: &Case<'_>, k: usize, watch: Watch<'_>) -> Result<Vec<Mist
 }
 
 /// The verdict on the last state of `seen` when no mistake explains it: rounding, where a hard contact makes it as large
-/// at once, or else another mistake.
-fn unexplained(case: &Case<'_>, seen: &[f64], precision: &Precision, watch: Watch<'_>) -> Result<String> {
+/// at once, or else a mistake that is like the `best`, or another one.
+fn unexplained(
+    case: &Case<'_>,
+    seen: &[f64],
+    best: Option<&Tried>,
+    precision: &Precision,
+    watch: Watch<'_>,
+) -> Result<String> {
     let k = seen.len() - 1;
     let twin = Twin::new(case, seen.len(), watch)?;
     if twin.reaches(case, seen) && twin.jumps_with(seen) {
@@ -191,7 +194,10 @@ fn unexplained(case: &Case<'_>, seen: &[f64], precision: &Precision, watch: Watc
                     contact";
         return Ok(chaos::words(case, k, grew));
     }
-    Ok(suspects(case, case.ours[k].counters) + &hidden(case, k, precision))
+    Ok(match best {
+        Some(best) if best.left <= RESEMBLES => format!("this is most like the mistake: {}", best.mistake),
+        _ => suspects(case, case.ours[k].counters) + &hidden(case, k, precision),
+    })
 }
 
 /// The verdict when no mistake explains the difference: what had acted on the cloth before it.
