@@ -8,6 +8,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use crate::error::{Error, Kind, Result};
 use crate::fence::fenced;
+use crate::lanes::Texels;
 
 /// Longest side of a texture, texels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -34,6 +35,8 @@ pub struct Texture {
     transparent: bool,
     /// Red alone, once it was asked for.
     red: OnceLock<Vec<f32>>,
+    /// All texels with 8 bits a channel, once they were asked for; `None` if some have more.
+    packed: OnceLock<Option<Vec<u32>>>,
 }
 
 /// Checks that `count` texels of several textures are at most [`MAX_ALL_TEXELS`].
@@ -52,7 +55,7 @@ pub(crate) fn check_all_texels(count: u64) -> Result<()> {
 impl PartialEq for Texture {
     /// What was asked for makes no difference.
     fn eq(&self, other: &Self) -> bool {
-        let Self { width, height, texels, transparent, red: _ } = self;
+        let Self { width, height, texels, transparent, red: _, packed: _ } = self;
         *width == other.width
             && *height == other.height
             && *texels == other.texels
@@ -95,7 +98,7 @@ impl Texture {
         let mut texels = Vec::new();
         texels.try_reserve_exact(width * height).ok()?;
         texels.extend(image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]));
-        Some(Self { width, height, texels, transparent, red: OnceLock::new() })
+        Some(Self { width, height, texels, transparent, red: OnceLock::new(), packed: OnceLock::new() })
     }
 
     /// A texture of `width` × `height` from RGB in 0..=1, row by row from the top.
@@ -108,7 +111,7 @@ impl Texture {
             return Err(Error::new(Kind::Internal, message));
         }
         let texels = rgb.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
-        Ok(Self { width, height, texels, transparent: false, red: OnceLock::new() })
+        Ok(Self { width, height, texels, transparent: false, red: OnceLock::new(), packed: OnceLock::new() })
     }
 
     /// Whether the file had transparent pixels, which are drawn opaque.
@@ -146,6 +149,28 @@ impl Texture {
     pub fn red(&self) -> &[f32] {
         self.red.get_or_init(|| self.texels.iter().map(|&[red, ..]| red).collect())
     }
+
+    /// All texels for bilinear look-ups, which may ask for them packed. Where 8 bits a channel are enough, those are a
+    /// quarter of the memory to look into, which the caches hold for longer.
+    pub fn for_look_ups(&self, packed: bool) -> Texels<'_> {
+        let pack_all = || self.texels.iter().copied().map(pack).collect();
+        let packed = if packed { self.packed.get_or_init(pack_all).as_deref() } else { None };
+        Texels { full: &self.texels, packed }
+    }
+}
+
+/// The channels of a texel with 8 bits each, red lowest; `None` if one is no multiple of 1/255.
+fn pack([r, g, b, _]: [f32; 4]) -> Option<u32> {
+    let mut bytes = [0; 4];
+    for (byte, channel) in bytes.iter_mut().zip([r, g, b]) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "compared below")]
+        let nearest = (channel * 255.0).round() as u8;
+        if channel.to_bits() != (f32::from(nearest) / 255.0).to_bits() {
+            return None;
+        }
+        *byte = nearest;
+    }
+    Some(u32::from_le_bytes(bytes))
 }
 
 /// The picture in a file, turned as it says.

@@ -8,6 +8,7 @@
 pub mod level;
 #[cfg(test)]
 mod operations;
+mod packed;
 mod pair;
 mod scalar;
 mod texels;
@@ -20,6 +21,7 @@ use fearless_simd::Simd;
 pub use pair::Pair;
 pub use scalar::F64;
 pub(crate) use scalar::rgba8;
+pub use texels::Texels;
 
 /// What [`Lane`] asks of a type that is a [`Part`] itself.
 macro_rules! is_its_only_part {
@@ -122,6 +124,9 @@ pub trait Part: Lane<Part = Self> {
     const WIDTH: usize;
     /// A bit for each of them.
     const ALL_LANES: u32 = (1 << Self::WIDTH) - 1;
+    /// Whether [`Part::bilinear`] reads packed texels: with vectors that are not the widest, they take longer than full
+    /// ones.
+    const PACKED: bool;
     /// The same lanes in binary64, in which positions in the window are computed.
     type Double: Copy + Add<Output = Self::Double> + Sub<Output = Self::Double> + Mul<Output = Self::Double>;
     /// The same lanes as whole numbers.
@@ -161,7 +166,7 @@ pub trait Part: Lane<Part = Self> {
     ///
     /// # Panics
     /// If one of the texels is not there.
-    fn bilinear(texels: &[[f32; 4]], places: Self::Whole, down: u32, weights: [Self; 2]) -> [Self; 3];
+    fn bilinear(texels: Texels<'_>, places: Self::Whole, down: u32, weights: [Self; 2]) -> [Self; 3];
     /// As [`Part::bilinear`], of one channel alone.
     ///
     /// # Panics

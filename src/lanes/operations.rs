@@ -1,7 +1,7 @@
 //! Tests: every operation of every kind of lanes is that of plain numbers.
 
 use super::{
-    F64, FragmentLanes, Lane, Part, Whole,
+    F64, FragmentLanes, Lane, Part, Texels, Whole,
     level::{Level, dispatch},
 };
 
@@ -115,7 +115,7 @@ fn of_texels<P: Part>(token: P::Token) {
     // The last one reads the last texel.
     let places = P::from_fn(token, |i| number(11 * (i + 1)).min(58.0).floor()).to_whole();
     let places = places.each(|place| if place == places.lane(P::WIDTH - 1) { 58 } else { place });
-    let mixed = P::bilinear(&texels, places, 10, [right, lower]);
+    let mixed = P::bilinear(Texels { full: &texels, packed: None }, places, 10, [right, lower]);
     for (channel, mixed) in
         mixed.into_iter().chain([P::bilinear_plane(&red, places, 10, [right, lower])]).enumerate()
     {
@@ -125,6 +125,27 @@ fn of_texels<P: Part>(token: P::Token) {
             let all = |further: usize| P::splat(token, texel(further));
             let expected = mix(mix(all(0), all(1), right), mix(all(10), all(11), right), lower);
             assert_eq!(mixed.lane(i).to_bits(), expected.lane(i).to_bits(), "channel {channel}, lane {i}");
+        }
+    }
+}
+
+/// Packed texels are read as the numbers that they stand for.
+fn of_packed_texels<P: Part>(token: P::Token) {
+    let byte = |i: usize, channel: usize| u8::try_from((i * 5 + channel * 85) % 256).unwrap();
+    // Neighbours that are equal, in all 256 ways, and others.
+    for (count, step) in (0..256).map(|count| (count, 0)).chain([(0, 1), (7, 3)]) {
+        let bytes: Vec<[u8; 3]> = (0..70).map(|i| [0, 1, 2].map(|c| byte(count + step * i, c))).collect();
+        let full: Vec<[f32; 4]> =
+            bytes.iter().map(|b| [b[0], b[1], b[2], 255].map(|b| f32::from(b) / 255.0)).collect();
+        let packed: Vec<u32> = bytes.iter().map(|b| u32::from_le_bytes([b[0], b[1], b[2], 0])).collect();
+        let weights = [P::from_fn(token, |i| [0.0, 0.3, 0.7][i % 3]), P::splat(token, 0.1)];
+        let places = P::from_fn(token, |i| u8::try_from(3 * i).map_or(0.0, f32::from)).to_whole();
+        let mixed = [None, Some(&*packed)]
+            .map(|packed| P::bilinear(Texels { full: &full, packed }, places, 10, weights));
+        for (expected, found) in mixed[0].into_iter().zip(mixed[1]) {
+            for i in 0..P::WIDTH {
+                assert_eq!(found.lane(i).to_bits(), expected.lane(i).to_bits(), "{count}, {step}, lane {i}");
+            }
         }
     }
 }
@@ -147,6 +168,7 @@ fn all<S: FragmentLanes>(simd: S) {
     operations::<S::Lanes>(simd);
     of_parts::<<S::Lanes as Lane>::Part>(simd);
     of_texels::<<S::Lanes as Lane>::Part>(simd);
+    of_packed_texels::<<S::Lanes as Lane>::Part>(simd);
     of_comparisons::<<S::Lanes as Lane>::Part>(simd);
 }
 

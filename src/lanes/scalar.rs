@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{
-    Lane, Part, Whole, is_its_only_part,
+    Lane, Part, Texels, Whole, is_its_only_part,
     texels::{mix, square},
 };
 
@@ -87,6 +87,7 @@ macro_rules! one_lane {
         #[expect(clippy::cast_possible_truncation, reason = "rounding and saturating are what is asked for")]
         impl Part for $lane {
             const WIDTH: usize = 1;
+            const PACKED: bool = false;
             type Double = f64;
             type Whole = i32;
 
@@ -147,8 +148,8 @@ macro_rules! one_lane {
                 self.to_whole()
             }
             #[inline(always)]
-            fn bilinear(texels: &[[f32; 4]], place: i32, down: u32, [right, lower]: [Self; 2]) -> [Self; 3] {
-                let square = square(texels, place, down);
+            fn bilinear(texels: Texels<'_>, place: i32, down: u32, [right, lower]: [Self; 2]) -> [Self; 3] {
+                let square = square(texels.full, place, down);
                 [0, 1, 2].map(|channel: usize| {
                     let [a, b, c, d] = square.map(|texel| Self::from(texel[channel]));
                     mix!(mix!(a, b, right), mix!(c, d, right), lower)

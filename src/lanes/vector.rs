@@ -6,11 +6,10 @@ use fearless_simd::{
 };
 
 use super::{
-    FragmentLanes, Lane, Pair, Part, Whole, is_its_only_part,
+    FragmentLanes, Lane, Pair, Part, Texels, Whole, is_its_only_part,
+    packed::{bilinear_plane_4, bilinear_plane_8, bilinear_plane_16},
     scalar::WHOLE_STEPS,
-    texels::{
-        bilinear_4, bilinear_8, bilinear_16, bilinear_plane_4, bilinear_plane_8, bilinear_plane_16, transpose,
-    },
+    texels::{bilinear_4, bilinear_8, bilinear_16, transpose},
 };
 
 macro_rules! vector {
@@ -51,6 +50,7 @@ macro_rules! vector {
 
         impl<S: FragmentLanes> Part for $vector<S> {
             const WIDTH: usize = $width;
+            const PACKED: bool = $width == 16;
             type Double = Pair<$double<S>>;
             type Whole = $whole<S>;
 
@@ -126,7 +126,7 @@ macro_rules! vector {
                 self.to_int()
             }
             #[inline(always)]
-            fn bilinear(texels: &[[f32; 4]], places: $whole<S>, down: u32, weights: [Self; 2]) -> [Self; 3] {
+            fn bilinear(texels: Texels<'_>, places: $whole<S>, down: u32, weights: [Self; 2]) -> [Self; 3] {
                 $bilinear(texels, places, down, weights)
             }
             #[inline(always)]

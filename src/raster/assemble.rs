@@ -15,6 +15,8 @@ use crate::share::share_out;
 pub(super) struct Chunk {
     /// Index of the draw call.
     pub(super) call: usize,
+    /// Whether most of the triangles may lie between the samples.
+    pub(super) fine: bool,
     pub(super) triangles: Vec<Triangle>,
     pub(super) lines: Vec<Line>,
     /// The vertices that clipping and set-up made; their numbers follow those of the mesh.
@@ -51,6 +53,8 @@ pub(super) fn assemble(
         let last = calls[call].len().min(first + per_chunk(calls[call].len()));
         match calls[call] {
             Primitives::Triangles(all) => {
+                // Where there are fewer triangles than that, most of them cover a sample.
+                chunk.fine = all.len() > viewport.width * viewport.height / 2;
                 chunk.set_triangles((call, first), &all[first..last], &buffers[call], viewport);
             }
             Primitives::Lines(all) => {
@@ -80,9 +84,7 @@ impl Chunk {
         viewport: &Viewport,
     ) {
         self.clear(call);
-        for (i, &corners) in triangles.iter().enumerate() {
-            self.add_triangle(corners, number(first + i), vertices, viewport);
-        }
+        self.add_triangles(first, triangles, vertices, viewport);
         self.bins.set(self.triangles.iter().map(|triangle| triangle.bounds));
     }
 
@@ -101,7 +103,13 @@ impl Chunk {
         self.bins.set(self.lines.iter().map(|line| line.bounds));
     }
 
-    fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
+    pub(super) fn add_triangle(
+        &mut self,
+        corners: [u32; 3],
+        source: u32,
+        vertices: &VertexBuffer,
+        viewport: &Viewport,
+    ) {
         let outside = |corner: u32| vertices.outside[corner as usize];
         let (a, b, c) = (outside(corners[0]), outside(corners[1]), outside(corners[2]));
         if (a | b | c) & FAR != 0 {
@@ -287,6 +295,6 @@ fn round(position: [f64; 4]) -> [f32; 4] {
 
 /// Numbers of vertices and primitives fit in the index buffer's u32.
 #[expect(clippy::cast_possible_truncation, reason = "as the line above says")]
-fn number(i: usize) -> u32 {
+pub(super) fn number(i: usize) -> u32 {
     i as u32
 }

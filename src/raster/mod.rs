@@ -11,6 +11,7 @@ mod clip;
 mod program;
 mod vertex;
 mod handle;
+mod between;
 mod bin;
 mod primitives;
 mod assemble;

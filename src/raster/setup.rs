@@ -12,7 +12,7 @@ pub(super) struct Viewport {
     pub(super) height: usize,
     pub(super) samples: usize,
     /// Lowest and highest position of a sample in its pixel along x and y, in 1/256 pixel.
-    spread: [[i32; 2]; 2],
+    pub(super) spread: [[i32; 2]; 2],
 }
 
 /// A vertex in the window: x right, y up (both in pixels, unsnapped), depth, and 1/w.

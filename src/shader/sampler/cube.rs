@@ -31,7 +31,7 @@ fn cube_texel<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
         && let Some((face, coordinates)) = one_face(direction)
         && let Some((places, down, weights)) = inside(size, coordinates)
     {
-        return P::bilinear(sampler.cubemap.faces()[face].texels(), places, down, weights);
+        return P::bilinear(sampler.cubemap.faces()[face].for_look_ups(P::PACKED), places, down, weights);
     }
     let (face, s, t) = cube_face(direction);
     if sampler.seamless && sampler.filter == Filter::Bilinear {

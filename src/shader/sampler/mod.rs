@@ -87,7 +87,7 @@ fn picture_texel<P: Part>(sampler: Sampler2d<'_>, [u, v]: [P; 2]) -> [P; 3] {
     if filter == Filter::Bilinear
         && let Some((places, down, weights)) = inside(size, [u, v])
     {
-        return P::bilinear(texture.texels(), places, down, weights);
+        return P::bilinear(texture.for_look_ups(P::PACKED), places, down, weights);
     }
     look_up(filter, [u, v], size, [Wrap::Repeat, wrap_v], &Picture(texture.texels()))
 }
