@@ -7,9 +7,10 @@ use fearless_simd::{
 
 use super::{
     FragmentLanes, Lane, Pair, Part, Texels, Whole, is_its_only_part,
-    packed::{bilinear_plane_4, bilinear_plane_8, bilinear_plane_16},
     scalar::WHOLE_STEPS,
-    texels::{bilinear_4, bilinear_8, bilinear_16, transpose},
+    texels::{
+        bilinear_4, bilinear_8, bilinear_16, bilinear_plane_4, bilinear_plane_8, bilinear_plane_16, transpose,
+    },
 };
 
 macro_rules! vector {

@@ -1,6 +1,7 @@
 //! Primitive assembly: clips and sets up primitives in chunks of fixed size, each on one thread.
 
 use super::{
+    between::Between,
     bin::Bins,
     clip::{ClipVertex, FAR, clip_polygon, clip_segment},
     handle::per_chunk,
@@ -15,8 +16,7 @@ use crate::share::share_out;
 pub(super) struct Chunk {
     /// Index of the draw call.
     pub(super) call: usize,
-    /// Whether most of the triangles may lie between the samples.
-    pub(super) fine: bool,
+    pub(super) between: Between,
     pub(super) triangles: Vec<Triangle>,
     pub(super) lines: Vec<Line>,
     /// The vertices that clipping and set-up made; their numbers follow those of the mesh.
@@ -54,7 +54,7 @@ pub(super) fn assemble(
         match calls[call] {
             Primitives::Triangles(all) => {
                 // Where there are fewer triangles than that, most of them cover a sample.
-                chunk.fine = all.len() > viewport.width * viewport.height / 2;
+                chunk.between.fine = all.len() > viewport.width * viewport.height / 2;
                 chunk.set_triangles((call, first), &all[first..last], &buffers[call], viewport);
             }
             Primitives::Lines(all) => {

@@ -16,6 +16,15 @@ const GROUP: usize = 8;
 /// Width and height in 1/256 pixel below which an area fits in 32 bits.
 const SMALL: i32 = 1 << 14;
 
+/// Which triangles of a chunk lie between the samples.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Between {
+    /// Whether most of them may: else it is not asked.
+    pub(super) fine: bool,
+    /// What [`between_samples`] finds of each whole group.
+    groups: Vec<u8>,
+}
+
 impl Chunk {
     /// Adds the triangles `first..` of a mesh.
     pub(super) fn add_triangles(
@@ -25,36 +34,30 @@ impl Chunk {
         vertices: &VertexBuffer,
         viewport: &Viewport,
     ) {
-        let mut added = 0;
-        if self.fine {
-            added = dispatch!(simd => self.add_groups(simd, first, triangles, vertices, viewport));
-        }
-        for (i, &corners) in triangles.iter().enumerate().skip(added) {
-            self.add_triangle(corners, number(first + i), vertices, viewport);
-        }
-    }
-
-    /// Adds the whole groups of them, and says how many triangles those have. Most are dropped side by side.
-    #[inline(always)]
-    fn add_groups<S: Simd>(
-        &mut self,
-        simd: S,
-        first: usize,
-        triangles: &[[u32; 3]],
-        vertices: &VertexBuffer,
-        viewport: &Viewport,
-    ) -> usize {
-        let groups = triangles.as_chunks().0;
-        for (group, first) in groups.iter().zip((first..).step_by(GROUP)) {
-            let between = between_samples(simd, group, vertices, viewport);
-            self.counts.no_sample += u64::from(between.count_ones());
-            for (i, &corners) in group.iter().enumerate() {
-                if between >> i & 1 == 0 {
-                    self.add_triangle(corners, number(first + i), vertices, viewport);
-                }
+        let groups = &mut self.between.groups;
+        groups.resize(if self.between.fine { triangles.len() / GROUP } else { 0 }, 0);
+        dispatch!(simd => find_between(simd, triangles, vertices, viewport, groups));
+        self.counts.no_sample += groups.iter().map(|found| u64::from(found.count_ones())).sum::<u64>();
+        for (i, &corners) in triangles.iter().enumerate() {
+            let found = self.between.groups.get(i / GROUP).map_or(0, |found| found >> (i % GROUP) & 1);
+            if found == 0 {
+                self.add_triangle(corners, number(first + i), vertices, viewport);
             }
         }
-        groups.len() * GROUP
+    }
+}
+
+/// [`between_samples`] of one group after the other.
+#[inline(always)]
+fn find_between<S: Simd>(
+    simd: S,
+    triangles: &[[u32; 3]],
+    vertices: &VertexBuffer,
+    viewport: &Viewport,
+    groups: &mut [u8],
+) {
+    for (group, found) in triangles.as_chunks().0.iter().zip(groups) {
+        *found = between_samples(simd, group, vertices, viewport);
     }
 }
 
@@ -67,7 +70,7 @@ fn between_samples<S: Simd>(
     triangles: &[[u32; 3]; GROUP],
     vertices: &VertexBuffer,
     viewport: &Viewport,
-) -> u32 {
+) -> u8 {
     let (mut corners, mut outside) = ([[[0; GROUP]; 3]; 2], [0; GROUP]);
     for (i, triangle) in triangles.iter().enumerate() {
         for (corner, &vertex) in triangle.iter().enumerate() {
@@ -83,7 +86,7 @@ fn between_samples<S: Simd>(
     let within = i32x8::load_array(simd, outside) - 1;
     // Negative where all of it is true.
     let found = (x.between | y.between) & x.small & y.small & (area | -area) & within;
-    found.simd_lt(0).to_bitmask() as u32
+    found.simd_lt(0).to_bitmask() as u8
 }
 
 /// What is negative where triangles are small along an axis, and where no sample lies between their first and last
@@ -153,18 +156,12 @@ mod tests {
             );
             Level::for_each(|level| {
                 let mut chunk = Chunk::default();
-                chunk.fine = true;
+                chunk.between.fine = true;
                 chunk.set_triangles((0, 0), &triangles, &vertices, &viewport);
                 assert_eq!(chunk.counts, expected.counts, "{level:?}");
                 let sources = |chunk: &Chunk| chunk.triangles.iter().map(|t| t.source).collect::<Vec<_>>();
                 assert_eq!(sources(&chunk), sources(&expected));
-                let found: u32 = triangles
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .map(|group| dispatch!(simd => between_samples(simd, group, &vertices, &viewport)))
-                    .map(u32::count_ones)
-                    .sum();
+                let found: u32 = chunk.between.groups.iter().map(|found| found.count_ones()).sum();
                 assert!(u64::from(found) > expected.counts.no_sample / 2, "{found}");
             });
         }
