@@ -15,6 +15,7 @@ use glow::HasContext;
 use super::gl::context::Context;
 use super::gl::device::Device;
 use super::gl::object::{objects, vec3};
+use super::gl::samples::Sampled;
 use super::gl::target::Target;
 use super::{medians, scene};
 
@@ -35,6 +36,7 @@ pub(super) fn table(rounds: usize) {
         let set = format!("material.shader={shader}");
         row(&format!("sphere.json, {shader}"), &scene("sphere", &[&set]), &mut device, rounds);
     }
+    row("sphere.json, phong, 4 samples", &scene("sphere", &["render.samples=4"]), &mut device, rounds);
     for points in [50, 256, 1024] {
         let sets = ["width", "height"].map(|side| format!("cloth.num_{side}_points={points}"));
         let scene = scene("pinned2", &[&sets[0], &sets[1], "cloth.pinned=[]"]);
@@ -58,16 +60,22 @@ fn row(name: &str, scene: &Scene, device: &mut Device<'_>, rounds: usize) {
     let objects = objects(scene, points);
     objects.iter().for_each(|object| device.prepare(object));
     let target = Target::new(device.gl, scene.render.size);
+    let sampled = (scene.render.samples > 1).then(|| Sampled::new(device.gl, scene.render.size));
     let camera = Camera::of(scene).unwrap();
     let uploaded: Vec<_> = objects.iter().map(|object| device.upload(object, true)).collect();
     let ours = || {
         renderer.draw_into(&mut framebuffer, points, &options);
     };
     let theirs = || {
-        target.begin_colors(vec3(scene.render.background));
+        let background = vec3(scene.render.background);
+        match &sampled {
+            Some(sampled) => sampled.begin(background),
+            None => target.begin_colors(background),
+        }
         for (uploaded, object) in uploaded.iter().zip(&objects) {
             device.draw_uploaded(uploaded, object, 0, scene, &camera);
         }
+        sampled.iter().for_each(Sampled::resolve);
         // SAFETY: the context is current on this thread.
         unsafe { device.gl.finish() };
     };
