@@ -6,19 +6,20 @@ use super::watch::{Event, Run, Watch};
 use drape::cloth::{Counters, Points};
 use drape::error::{Kind, Result};
 use drape::math::splitmix64;
+use drape::scene::Integrator;
 use drape::simulation::Simulation;
 
-/// How much farther from ours another program may at least be than ours is from itself with one rounding changed.
+/// How much farther from ours another program may be than ours is from itself with other roundings: it rounds anew in
+/// each operation of each step, and the copy once a frame.
 const MARGIN: f64 = 1e5;
 
 /// The largest factor by which a difference of rounding grows from one frame to the next where nothing hits hard.
 const GROWTH: f64 = 1e4;
 
-/// How rounding alone grows: distances of our own method from itself, started from points of which each has another
-/// last bit. They are as many as were asked for; infinite from where the copy is unstable.
+/// How rounding alone grows: distances of our own method from itself, where each point has another last bit at the start
+/// and after each frame. They are as many as were asked for; infinite from where the copy is unstable.
 pub(super) struct Twin {
     distances: Vec<f64>,
-    steps_per_frame: f64,
 }
 
 impl Twin {
@@ -28,10 +29,10 @@ impl Twin {
     /// Those of the simulation, and of `watch`.
     pub(super) fn new(case: &Case<'_>, count: usize, watch: Watch<'_>) -> Result<Self> {
         let start = Simulation::starting_at(case.scene, case.start.as_ref())?.positions().clone();
-        let mut twin = Simulation::starting_at(case.scene, Some(&nudged(&start)))?;
+        let mut twin = Simulation::starting_at(case.scene, Some(&nudged(&start, 0)))?;
         twin.allow_unstable();
         let last = case.frame(count.saturating_sub(1));
-        watch(Event::Stage("running the method with another rounding, frames".into(), last))?;
+        watch(Event::Stage("running the method with other roundings, frames".into(), last))?;
         let run = Run::new(watch, last);
         let mut distances = Vec::new();
         'states: for (k, Ours { positions: ours, .. }) in case.ours.iter().enumerate().take(count) {
@@ -41,6 +42,11 @@ impl Twin {
                     Err(error) if error.kind == Kind::Unstable => break 'states,
                     ended => ended?,
                 }
+                // Other integrators remember more than two positions, and would begin anew.
+                if case.scene.sim.integrator == Integrator::Verlet {
+                    let moved = nudged(twin.positions(), twin.frame());
+                    twin.set_state(moved, twin.last_positions().clone())?;
+                }
             }
             let positions = twin.positions();
             let theirs: Vec<[f64; 3]> = (0..positions.len()).map(|p| positions.get(p).into()).collect();
@@ -48,18 +54,15 @@ impl Twin {
         }
         run.finish()?;
         distances.resize(count, f64::INFINITY);
-        Ok(Self { distances, steps_per_frame: f64::from(case.scene.sim.steps_per_frame) })
+        Ok(Self { distances })
     }
 
     /// Whether rounding makes `distances` as large as these from the first state on.
-    pub(super) fn reaches(&self, case: &Case<'_>, distances: &[f64]) -> bool {
+    pub(super) fn reaches(&self, distances: &[f64]) -> bool {
         let mut most = f64::EPSILON;
-        distances.iter().zip(&self.distances).enumerate().all(|(k, (&theirs, &twin))| {
+        distances.iter().zip(&self.distances).all(|(&theirs, &twin)| {
             most = twin.max(most);
-            // A program rounds anew in each step; of a point that moves freely that adds up to this many roundings.
-            let steps = case.frame(k) as f64 * self.steps_per_frame;
-            let anew = steps * steps.sqrt();
-            theirs <= ROUNDING || theirs <= MARGIN.max(anew) * most
+            theirs <= ROUNDING || theirs <= MARGIN * most
         })
     }
 
@@ -81,10 +84,11 @@ pub(super) fn grew(distances: &[f64]) -> bool {
     starts_small && slowly && seen.len() > 2
 }
 
-/// The points with the last bit of each coordinate up or down.
-fn nudged(start: &Points) -> Points {
+/// The points with the last bit of each coordinate up or down, another way for each frame.
+fn nudged(start: &Points, frame: u64) -> Points {
     let nudge = |axis: u64, values: &[f64]| {
-        let up = |p: usize| splitmix64(3 * p as u64 + axis) & 1 == 0;
+        let seed = splitmix64(frame);
+        let up = |p: usize| splitmix64(seed ^ (3 * p as u64 + axis)) & 1 == 0;
         let factor = |p: usize| if up(p) { 1.0 + f64::EPSILON } else { 1.0 - f64::EPSILON };
         values.iter().enumerate().map(|(p, value)| value * factor(p)).collect()
     };
@@ -135,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_jump_of_rounding_is_one_of_the_copy_too() {
-        let twin = Twin { distances: vec![1e-16, 2e-16, 1e-8, 1e-7], steps_per_frame: 30.0 };
+        let twin = Twin { distances: vec![1e-16, 2e-16, 1e-8, 1e-7] };
         assert!(twin.jumps_with(&[0.0, 0.0, 1e-6]), "where the copy jumps");
         assert!(!twin.jumps_with(&[0.0, 1e-6, 1e-5]), "before it");
         assert!(!twin.jumps_with(&[0.0, 0.0, 1e-16, 1e-5]), "behind it");

@@ -56,7 +56,7 @@ impl Verdict {
             return Ok(Self::only(words));
         }
         let seen = &distances[..=k];
-        if chaos::grew(seen) && Twin::new(case, seen.len(), watch)?.reaches(case, seen) {
+        if chaos::grew(seen) && Twin::new(case, seen.len(), watch)?.reaches(seen) {
             let grew = "this grew out of rounding without a jump, as it does after contact";
             return Ok(Self::only(chaos::words(case, k, grew)));
         }
@@ -189,7 +189,7 @@ fn unexplained(
 ) -> Result<String> {
     let k = seen.len() - 1;
     let twin = Twin::new(case, seen.len(), watch)?;
-    if twin.reaches(case, seen) && twin.jumps_with(seen) {
+    if twin.reaches(seen) && twin.jumps_with(seen) {
         let grew = "none of the known mistakes explains the difference, and rounding alone grows as fast in such a \
                     contact";
         return Ok(chaos::words(case, k, grew));

@@ -135,6 +135,14 @@ fn rounding_alone_is_never_called_a_mistake() {
     }
 }
 
+/// In a long fall roundings of every step add up, before contact makes them grow.
+#[test]
+fn rounding_of_thousands_of_steps_is_never_called_a_mistake() {
+    let slippery = ["cloth.damping=0", "plane.point=[0,-30,0]", "plane.friction=0"];
+    let long = Stock::new("plane.json", &[&SMALL[..], &slippery].concat());
+    assert_is_rounding(&long, 300, Rounding::EveryStep(2));
+}
+
 #[test]
 #[ignore = "takes minutes"]
 fn rounding_of_no_stock_scene_is_called_a_mistake() {
