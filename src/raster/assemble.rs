@@ -4,7 +4,7 @@ use super::{
     between::Between,
     bin::Bins,
     clip::{ClipVertex, FAR, clip_polygon, clip_segment},
-    handle::per_chunk,
+    handle::{number, per_chunk},
     primitives::Primitives,
     setup::{Corner, Dropped, Line, Triangle, Viewport},
     vertex::VertexBuffer,
@@ -84,7 +84,12 @@ impl Chunk {
         viewport: &Viewport,
     ) {
         self.clear(call);
-        self.add_triangles(first, triangles, vertices, viewport);
+        self.counts.no_sample += self.between.find(triangles, vertices, viewport);
+        for (i, &corners) in triangles.iter().enumerate() {
+            if !self.between.holds(i) {
+                self.add_triangle(corners, number(first + i), vertices, viewport);
+            }
+        }
         self.bins.set(self.triangles.iter().map(|triangle| triangle.bounds));
     }
 
@@ -103,13 +108,7 @@ impl Chunk {
         self.bins.set(self.lines.iter().map(|line| line.bounds));
     }
 
-    pub(super) fn add_triangle(
-        &mut self,
-        corners: [u32; 3],
-        source: u32,
-        vertices: &VertexBuffer,
-        viewport: &Viewport,
-    ) {
+    fn add_triangle(&mut self, corners: [u32; 3], source: u32, vertices: &VertexBuffer, viewport: &Viewport) {
         let outside = |corner: u32| vertices.outside[corner as usize];
         let (a, b, c) = (outside(corners[0]), outside(corners[1]), outside(corners[2]));
         if (a | b | c) & FAR != 0 {
@@ -291,10 +290,4 @@ fn unclipped(position: [f32; 4], i: usize) -> ClipVertex {
 #[expect(clippy::cast_possible_truncation, reason = "clip space is f32")]
 fn round(position: [f64; 4]) -> [f32; 4] {
     position.map(|c| c as f32)
-}
-
-/// Numbers of vertices and primitives fit in the index buffer's u32.
-#[expect(clippy::cast_possible_truncation, reason = "as the line above says")]
-pub(super) fn number(i: usize) -> u32 {
-    i as u32
 }

@@ -2,12 +2,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdMask, i32x8};
 
-use super::{
-    assemble::{Chunk, number},
-    setup::Viewport,
-    tiling::SUBPIXELS,
-    vertex::VertexBuffer,
-};
+use super::{setup::Viewport, tiling::SUBPIXELS, vertex::VertexBuffer};
 use crate::lanes::level::dispatch;
 
 /// Triangles that are looked at side by side.
@@ -25,25 +20,23 @@ pub(super) struct Between {
     groups: Vec<u8>,
 }
 
-impl Chunk {
-    /// Adds the triangles `first..` of a mesh.
-    pub(super) fn add_triangles(
+impl Between {
+    /// Looks at the triangles of a chunk, and says how many it found.
+    pub(super) fn find(
         &mut self,
-        first: usize,
         triangles: &[[u32; 3]],
         vertices: &VertexBuffer,
         viewport: &Viewport,
-    ) {
-        let groups = &mut self.between.groups;
-        groups.resize(if self.between.fine { triangles.len() / GROUP } else { 0 }, 0);
+    ) -> u64 {
+        let groups = &mut self.groups;
+        groups.resize(if self.fine { triangles.len() / GROUP } else { 0 }, 0);
         dispatch!(simd => find_between(simd, triangles, vertices, viewport, groups));
-        self.counts.no_sample += groups.iter().map(|found| u64::from(found.count_ones())).sum::<u64>();
-        for (i, &corners) in triangles.iter().enumerate() {
-            let found = self.between.groups.get(i / GROUP).map_or(0, |found| found >> (i % GROUP) & 1);
-            if found == 0 {
-                self.add_triangle(corners, number(first + i), vertices, viewport);
-            }
-        }
+        groups.iter().map(|found| u64::from(found.count_ones())).sum()
+    }
+
+    /// Whether triangle `i` of the chunk was found.
+    pub(super) fn holds(&self, i: usize) -> bool {
+        self.groups.get(i / GROUP).is_some_and(|found| found >> (i % GROUP) & 1 == 1)
     }
 }
 
@@ -118,7 +111,7 @@ fn along_axis<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lanes::level::Level, math::splitmix64};
+    use crate::{lanes::level::Level, math::splitmix64, raster::assemble::Chunk};
 
     /// Vertices within `7680 / scale` pixels, some of them outside of the view volume, or NaN.
     fn vertices(viewport: &Viewport, scale: f32) -> VertexBuffer {

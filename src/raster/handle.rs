@@ -9,6 +9,12 @@ pub(super) fn per_chunk(primitives: usize) -> usize {
     (primitives / 16).next_power_of_two().clamp(CHUNK / 8, CHUNK)
 }
 
+/// Numbers of vertices and primitives fit in the index buffer's u32.
+#[expect(clippy::cast_possible_truncation, reason = "as the line above says")]
+pub(super) fn number(i: usize) -> u32 {
+    i as u32
+}
+
 /// Bits of the index of a primitive in its chunk.
 const INDEX_BITS: u32 = 14;
 
