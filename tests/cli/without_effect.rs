@@ -48,13 +48,16 @@ fn options_of_export_that_change_nothing_are_named() {
         assert_eq!(run.code, Some(0), "{arguments:?}: {}", run.stderr);
         run.stderr
     };
-    for out in ["a.obj", "a.ply"] {
-        assert!(said(&[out, "--textures", "t"]).contains("--textures has no effect"), "{out}");
+    fs::copy(crate::repository::path("textures/texture_1.png"), scratch.path("t/texture_1.png")).unwrap();
+    for out in [&["a.obj"][..], &["a.ply"], &["a.glb"], &["a.obj", "--materials"]] {
+        assert!(said(&[out, &["--textures", "t"]].concat()).contains("--textures has no effect"), "{out:?}");
     }
     assert!(said(&["a.glb", "--materials"]).contains("--materials has no effect"));
-    for fine in [&["a.obj", "--materials", "--textures", "t"][..], &["a.glb", "--textures", "t"], &["a.ply"]]
-    {
-        assert!(!said(fine).contains("effect"), "{fine:?}");
+    let reads =
+        ["--set", "material.shader=texture", "--set", "material.texture=texture_1", "--textures", "t"];
+    assert!(!said(&["a.ply"]).contains("effect"));
+    for out in [&["a.obj", "--materials"][..], &["a.glb"]] {
+        assert!(!said(&[out, &reads].concat()).contains("effect"), "{out:?}");
     }
 }
 

@@ -22,7 +22,7 @@ use drape::math::StateHash;
 use drape::output::gltf::{Motion, Shape};
 use drape::output::part::Part;
 use drape::output::provenance::Arguments;
-use drape::scene::Scene;
+use drape::scene::{Images, Scene};
 use drape::simulation::Simulation;
 use drape::texture_source::TextureSource;
 use format::Format;
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (frames, until) = args.frames(scene)?;
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     args.provenance.caution(&args.mesh, format == Format::Glb, &session.ui);
-    args.caution(format, &session.ui);
+    args.caution(format, scene, &session.ui);
     let path = if pattern.is_some() { args.mesh.clone() } else { one(&args.mesh)? };
     let writer = Writer { path: &path, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
@@ -134,7 +134,7 @@ fn add(motion: &mut Motion, states: &mut StateHash, frames: &Frames, simulation:
 
 impl Args {
     /// Warns of options that change nothing.
-    fn caution(&self, format: Format, ui: &Ui) {
+    fn caution(&self, format: Format, scene: &Scene, ui: &Ui) {
         let is_glb = format == Format::Glb;
         if self.materials && is_glb {
             ui.caution("--materials has no effect: a .glb always has materials", "");
@@ -144,6 +144,8 @@ impl Args {
                 "--textures has no effect: only materials have textures",
                 "add --materials, or name a .glb",
             );
+        } else if self.textures.is_some() && Images::of(scene).textures.is_empty() {
+            ui.caution("--textures has no effect: no shader of the scene reads a picture of the surface", "");
         }
     }
 
