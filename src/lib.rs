@@ -62,6 +62,7 @@ pub mod version;
 pub mod error;
 pub mod fence;
 pub mod bounded;
+pub mod container;
 pub mod math;
 mod share;
 pub mod lanes;

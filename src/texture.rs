@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
+use crate::container::{jpeg_end, png_chunks, png_end};
 use crate::error::{Error, Kind, Result};
 use crate::fence::fenced;
 use crate::lanes::Texels;
@@ -187,8 +188,8 @@ fn picture(name: &str, bytes: &[u8]) -> Result<DynamicImage> {
     let invalid = |why: &dyn std::fmt::Display| invalid(name, why);
     let mut reader = ImageReader::new(Cursor::new(bytes));
     match image::guess_format(bytes) {
-        Ok(ImageFormat::Png) if !png_ends(bytes) => return Err(invalid(&"the PNG is cut short")),
-        Ok(ImageFormat::Jpeg) if !jpeg_ends(bytes) => return Err(invalid(&"the JPEG is cut short")),
+        Ok(ImageFormat::Png) if png_end(bytes).is_none() => return Err(invalid(&"the PNG is cut short")),
+        Ok(ImageFormat::Jpeg) if jpeg_end(bytes).is_none() => return Err(invalid(&"the JPEG is cut short")),
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => reader.set_format(format),
         _ => return Err(invalid(&"it is neither a PNG nor a JPEG")),
     }
@@ -219,42 +220,7 @@ fn invalid(name: &str, why: &dyn std::fmt::Display) -> Error {
 /// Those of the decoder.
 pub fn orientation(decoder: &mut impl ImageDecoder, bytes: &[u8]) -> image::ImageResult<Orientation> {
     let found = decoder.orientation()?;
-    let late = || Orientation::from_exif_chunk(png_chunk(bytes, *b"eXIf")?);
+    let exif = || png_chunks(bytes).find(|(kind, _)| kind == b"eXIf");
+    let late = || Orientation::from_exif_chunk(exif()?.1);
     Ok(if found == Orientation::NoTransforms { late().unwrap_or(found) } else { found })
-}
-
-/// The content of the first chunk of a PNG with this name.
-fn png_chunk(bytes: &[u8], name: [u8; 4]) -> Option<&[u8]> {
-    let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
-    loop {
-        let (length, after) = rest.split_first_chunk::<4>()?;
-        let (kind, content) = after.split_first_chunk::<4>()?;
-        let length = usize::try_from(u32::from_be_bytes(*length)).ok()?;
-        if *kind == name {
-            return content.get(..length);
-        }
-        // A checksum of four bytes follows.
-        rest = content.get(length.checked_add(4)?..)?;
-    }
-}
-
-/// Whether a PNG holds its last chunk, IEND with its checksum. The decoder does not ask for it.
-fn png_ends(bytes: &[u8]) -> bool {
-    bytes.windows(8).rev().any(|window| window == b"IEND\xAE\x42\x60\x82")
-}
-
-/// Whether a JPEG reaches its end-of-image marker (ITU-T T.81, annex B). The decoder would fill
-/// the missing rest with grey. Segments are stepped over, since a thumbnail in one has its own end.
-fn jpeg_ends(bytes: &[u8]) -> bool {
-    let mut rest = bytes.get(2..).unwrap_or_default();
-    let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0x00 | 0xD0..=0xD7 | 0xFF);
-    while let Some(at) = rest.windows(2).position(is_marker) {
-        if rest[at + 1] == 0xD9 {
-            return true;
-        }
-        rest = &rest[at + 2..];
-        let length = rest.first_chunk().map_or(rest.len(), |&two| usize::from(u16::from_be_bytes(two)));
-        rest = rest.get(length..).unwrap_or_default();
-    }
-    false
 }

@@ -33,6 +33,10 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
+/// So many times their size from the origin vertices are counted from their middle, where the nodes then are: in numbers
+/// of 32 bits their places would be off by 1e-5 of their size and more.
+const TOO_FAR: f64 = 256.0;
+
 /// glTF bytes of meshes. `texture` gives the PNG of a texture's name. With `motion`, which has a shape for each of its
 /// times and as many vertices as the first mesh, an animation goes from frame to frame in straight lines. With the hash
 /// of a state and `provenance`, the file says so of itself in `asset.extras.drape`; the content is its binary chunk.
@@ -45,7 +49,7 @@ pub fn encode(
     provenance: Option<(u64, &Provenance)>,
     texture: impl Fn(&str) -> Result<Vec<u8>>,
 ) -> Result<Vec<u8>> {
-    let mut file = File::default();
+    let mut file = File { middle: middle(parts), ..File::default() };
     for (i, part) in parts.iter().enumerate() {
         part.check()?;
         let material = file.material(part, &texture)?;
@@ -57,6 +61,8 @@ pub fn encode(
 /// The lists of a file, and its bytes.
 #[derive(Default)]
 struct File {
+    /// Where vertices are counted from.
+    middle: [f64; 3],
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -128,7 +134,7 @@ impl File {
 
     /// Adds a mesh with its node, and its motion.
     fn mesh(&mut self, part: &Part<'_>, material: usize, motion: Option<&Motion>) -> Result<()> {
-        let positions = rounded(&part.positions);
+        let positions = self.rounded(&part.positions);
         let mut primitive = json!({
             "attributes": {
                 "POSITION": self.floats("VEC3", &positions, Some(ARRAY_BUFFER)),
@@ -150,9 +156,19 @@ impl File {
             self.animation = Some(self.animation(motion, self.nodes.len()));
         }
         mesh["primitives"] = json!([primitive]);
-        self.nodes.push(json!({ "name": part.name, "mesh": self.meshes.len() }));
+        let mut node = json!({ "name": part.name, "mesh": self.meshes.len() });
+        if self.middle != [0.0; 3] {
+            node["translation"] = json!(self.middle);
+        }
+        self.nodes.push(node);
         self.meshes.push(mesh);
         Ok(())
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "glTF has numbers of 32 bits")]
+    fn rounded(&self, positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
+        let place = |position: &[f64; 3]| [0, 1, 2].map(|axis| (position[axis] - self.middle[axis]) as f32);
+        positions.iter().map(place).collect()
     }
 
     /// A morph target for each frame but the first: how far its vertices and normals are from those of the mesh.
@@ -163,7 +179,7 @@ impl File {
         }
         let mut targets = Vec::new();
         for shape in &motion.frames[1..] {
-            let moved = differences(&rounded(&shape.positions), base);
+            let moved = differences(&self.rounded(&shape.positions), base);
             let turned = differences(&shape.normals, &part.normals);
             targets.push(json!({
                 "POSITION": self.floats("VEC3", &moved, Some(ARRAY_BUFFER)),
@@ -236,9 +252,19 @@ impl File {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "glTF has numbers of 32 bits")]
-fn rounded(positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
-    positions.iter().map(|position| position.map(|c| c as f32)).collect()
+/// The middle of all vertices, as numbers of 32 bits, if that is far away; else the origin.
+fn middle(parts: &[Part<'_>]) -> [f64; 3] {
+    let positions = parts.iter().flat_map(|part| &part.positions);
+    let bounds = [0, 1, 2].map(|axis| {
+        positions.clone().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], position| {
+            [least.min(position[axis]), most.max(position[axis])]
+        })
+    });
+    let size = bounds.iter().fold(0.0, |size: f64, [least, most]| size.max(most - least));
+    #[expect(clippy::cast_possible_truncation, reason = "readers have numbers of 32 bits")]
+    let middle = bounds.map(|[least, most]| f64::from((least + 0.5 * (most - least)) as f32));
+    let is_far = middle.iter().any(|c| c.abs() > TOO_FAR * size);
+    if is_far { middle } else { [0.0; 3] }
 }
 
 fn differences(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {

@@ -189,6 +189,48 @@ fn a_mask_leaves_out_what_is_black_in_it_and_a_percentage_is_of_the_rest() {
     assert_eq!(code(&["--mask", "small.png"]), Some(2));
 }
 
+/// A second picture behind the end of a file, and the picture of an animated PNG that only programs without animation
+/// show: a decoder looks at neither.
+#[test]
+fn pictures_that_a_decoder_passes_over_are_not_equal_to_nothing() {
+    let scratch = Scratch::new();
+    for name in ["a.png", "a.jpg"] {
+        picture([1, 2, 3]).save(scratch.path(name)).unwrap();
+        let whole = scratch.read(name);
+        for (other, bytes) in [
+            ("two", [&whole[..], &whole].concat()),
+            ("more", [&whole[..], b"more"].concat()),
+            ("cut", whole[..whole.len() - 2].to_vec()),
+        ] {
+            let other = format!("{other}.{name}");
+            fs::write(scratch.path(&other), bytes).unwrap();
+            let run = scratch.run(&["compare", name, &other]);
+            assert_eq!(run.code, Some(6), "{other}: {}", run.stderr);
+            assert!(run.stderr.contains("is cut short, or has more behind its end"), "{}", run.stderr);
+        }
+    }
+    let animated = |name: &str, cover: u8| {
+        let mut encoder = png::Encoder::new(File::create(scratch.path(name)).unwrap(), 2, 1);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_animated(2, 0).unwrap();
+        encoder.set_sep_def_img(true).unwrap();
+        let mut writer = encoder.write_header().unwrap();
+        [[cover; 2], [7; 2], [8; 2]].iter().for_each(|pixels| writer.write_image_data(pixels).unwrap());
+        writer.finish().unwrap();
+    };
+    animated("a.apng", 1);
+    animated("same.apng", 1);
+    animated("cover.apng", 2);
+    assert_eq!(scratch.run(&["compare", "a.apng", "same.apng"]).code, Some(0));
+    let run = scratch.run(&["compare", "a.apng", "cover.apng", "--json"]);
+    let found = animation(&run);
+    assert_eq!(
+        (run.code, &found["pictures_a"], &found["first"], &found["differing_pictures"]),
+        (Some(1), &json!(3), &json!(0), &json!(1)),
+        "{found}"
+    );
+}
+
 #[test]
 fn jpeg_pictures_are_compared_as_they_are_shown() {
     let scratch = Scratch::new();

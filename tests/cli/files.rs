@@ -88,8 +88,36 @@ fn a_place_for_a_number_is_never_part_of_a_name() {
     refused(&["render", "small.json", "x%04d.png"], "%04d stands for the number of many");
     refused(&["animate", "small.json", "x%d.gif", "--frames", "0..2"], "%d stands for");
     refused(&["simulate", "small.json", "--csv", "x%d.csv"], "%d stands for");
+    refused(&["animate", "small.json", "%d-%d.png", "--frames", "0..2"], "has 2 places for a number");
+    refused(&["render", "small.json", "100%dark.png"], "or write %%d for a percent sign");
     assert_eq!(scratch.names(), ["small.json"]);
     scratch.succeed(&["render", "small.json", "5% x.png", "--size", "8x8", "--frame", "0"]);
     scratch.succeed(&["animate", "small.json", "x%019d.png", "--size", "8x8", "--frames", "0..1"]);
     assert_eq!(scratch.names(), ["5% x.png", "small.json", "x0000000000000000000.png"]);
+}
+
+/// What a command writes to a name with `%%` has one percent sign there, and the command says that name.
+#[test]
+fn two_percent_signs_in_the_name_of_an_output_are_one() {
+    let scratch = Scratch::new();
+    let written = |arguments: &[&str], files: &[&str]| {
+        let run = scratch.run(&[arguments, &["--set", "render.size=[8,8]"]].concat());
+        assert!(run.code == Some(0) && !run.stderr.contains("%%"), "{arguments:?}: {}", run.stderr);
+        for file in files {
+            fs::remove_file(scratch.path(file)).unwrap_or_else(|e| panic!("{arguments:?}: {file}: {e}"));
+        }
+        assert_eq!(scratch.names(), ["small.json"], "{arguments:?}");
+    };
+    let render =
+        ["render", "small.json", "9%%dark.png", "--frame", "0", "--depth", "9%%d.raw", "--ids", "%%.ids"];
+    written(&render, &["9%dark.png", "9%d.raw", "%.ids"]);
+    written(&["animate", "small.json", "9%%d.gif", "--frames", "0..2"], &["9%d.gif"]);
+    written(&["export", "small.json", "9%%d.glb", "--frame", "0"], &["9%d.glb"]);
+    let simulate = ["simulate", "small.json", "--frames", "1", "--positions", "9%%d.npy"];
+    let others = ["--csv", "9%%d.csv", "--save-state", "9%%d.state"];
+    written(&[&simulate[..], &others].concat(), &["9%d.npy", "9%d.csv", "9%d.state"]);
+    scratch.succeed(&simulate);
+    scratch.succeed(&["compare-positions", "small.json", "9%%d.npy", "--frame", "1"]);
+    scratch.succeed(&["export", "small.json", "9%%d-%d.obj", "--frames", "0..2"]);
+    assert_eq!(scratch.names(), ["9%d-0.obj", "9%d-1.obj", "9%d.npy", "small.json"]);
 }

@@ -158,6 +158,39 @@ fn the_loop_over_stiffness_leaves_a_picture_each() {
     assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "stiffness shows");
 }
 
+/// An animation that a page shows is the one that its command makes now, and not that of an earlier program.
+#[test]
+fn the_folding_cloth_that_the_readme_shows_is_that_of_its_command() {
+    let lines = lines_of("README.md", "sh");
+    let line = lines.iter().find(|line| line.starts_with("drape animate")).expect("the animation");
+    let folder = folder();
+    assert!(shell(line, folder.path()).status.success(), "{line}");
+    let shown = repository().join("docs/media/selfCollision.apng");
+    let compared = shell(&format!("drape compare selfCollision.apng '{}'", shown.display()), folder.path());
+    assert!(compared.status.success(), "{}", String::from_utf8_lossy(&compared.stderr));
+}
+
+/// The least and the largest number in some columns of the table of a page whose first line starts with `head`.
+fn extent(page: &str, head: &str, columns: &[usize]) -> String {
+    let text = text(page);
+    let table = text.lines().skip_while(|line| !line.starts_with(head)).skip(2);
+    let numbers = table.take_while(|line| line.starts_with('|')).flat_map(|line| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        columns.iter().map(|&column| cells[column].parse().expect("a number")).collect::<Vec<f64>>()
+    });
+    let (least, most) = numbers.fold((f64::MAX, 0_f64), |(least, most), n| (least.min(n), most.max(n)));
+    format!("{least:.1} to {most:.1} times")
+}
+
+#[test]
+fn the_speed_that_the_readme_names_is_that_of_the_tables() {
+    let readme = text("README.md");
+    for (head, columns) in [("| ms a picture", &[4, 7][..]), ("| µs a step, after a second", &[4])] {
+        let speed = extent("docs/speed.md", head, columns);
+        assert!(readme.contains(&speed), "{head}: {speed}");
+    }
+}
+
 #[test]
 fn the_mistake_is_shown_as_the_readme_shows_it() {
     let folder = folder();

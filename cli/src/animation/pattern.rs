@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::session::files::numbered::place;
+use crate::session::files::numbered::{Place, place};
 use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 
@@ -20,14 +20,14 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern in a path whose file name holds one `%d`, or `%04d` for at least four digits.
-    /// None if there is no such place, or `%` elsewhere in the name.
+    /// The pattern in a path whose file name holds one `%d`, or `%04d` for at least four digits; none if there is no such
+    /// place.
     ///
     /// # Errors
     /// [`Kind::Usage`] when the place has a width that no number is filled up to: the file would have the pattern as
-    /// its name.
+    /// its name. As [`place()`].
     pub(crate) fn parse(path: &Path) -> Result<Option<Self>> {
-        let Some([before, width, after]) = place(path) else { return Ok(None) };
+        let Some(Place { around: [before, after], width }) = place(path)? else { return Ok(None) };
         let digits = match width.strip_prefix('0') {
             Some(digits) => digits.parse().ok().filter(|digits| (1..=MAX_DIGITS).contains(digits)),
             None => width.is_empty().then_some(1),
@@ -41,7 +41,7 @@ impl Pattern {
             Error::new(Kind::Usage, message).with_help(help)
         })?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Ok(Some(Self { folder, before: before.into(), digits, after: after.into() }))
+        Ok(Some(Self { folder, before, digits, after }))
     }
 
     /// The folder of all files; empty for the current one.
@@ -100,15 +100,18 @@ mod tests {
             ("a b/x%03dy.png", "a b/x007y.png"),
             ("100%/%01d.png", "100%/7.png"),
             ("%019d.png", "0000000000000000007.png"),
+            ("100%%-%d.png", "100%-7.png"),
+            ("5%x%d%%d", "5%x7%d"),
         ] {
             let pattern = parse(text).unwrap().unwrap();
             assert_eq!(pattern.path(7), Path::new(file), "{text}");
             assert_eq!(pattern.number(Path::new(file)), Some(7));
             assert_eq!(pattern.number(Path::new("a/00000000007.png")), None);
         }
-        for none in ["a.png", "%d/a.png", "%.png", "%d%d.png", "%x.png", "5% dark.png"] {
+        for none in ["a.png", "%d/a.png", "%.png", "%%d.png", "%x.png", "5% dark.png"] {
             assert_eq!(parse(none), Ok(None), "{none}");
         }
+        assert_eq!(parse("%d-%02d.png").unwrap_err().message, "`%d-%02d.png` has 2 places for a number");
         for width in ["4", "0", "00", "020", "099999999999999999999999"] {
             let error = parse(&format!("a/%{width}d.png")).unwrap_err();
             assert_eq!(error.kind, Kind::Usage, "{width}");

@@ -7,9 +7,12 @@ use image::codecs::gif::GifDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
 use image::metadata::LoopCount;
-use image::{AnimationDecoder, ColorType, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits};
+use image::{
+    AnimationDecoder, ColorType, Delay, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits,
+};
 
 use drape::bounded;
+use drape::container::{gif_end, has_cover, jpeg_end, png_end};
 use drape::error::{Error, Kind, Result};
 use drape::fence::fenced;
 use drape::output::png::{Pixels, refusal};
@@ -92,7 +95,7 @@ fn shown(frame: Frame) -> Shown {
 type Opened = std::result::Result<(u32, Pictures), String>;
 
 fn png(bytes: Vec<u8>) -> Opened {
-    if !bytes.ends_with(b"IEND\xAE\x42\x60\x82") {
+    if png_end(&bytes) != Some(bytes.len()) {
         return Err("the PNG is cut short, or has more behind its end".to_owned());
     }
     let kept = bytes.clone();
@@ -105,7 +108,17 @@ fn png(bytes: Vec<u8>) -> Opened {
         return still(decoder, &kept);
     }
     let decoder = decoder.apng().map_err(|e| refusal(&e))?;
-    Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
+    let cover = if has_cover(&kept) { Some(cover(kept)?) } else { None };
+    let plays = plays(decoder.loop_count());
+    let frames = cover.into_iter().map(Ok).chain(decoder.into_frames());
+    Ok((plays, Pictures::Moving(Frames::new(Box::new(frames)))))
+}
+
+/// The picture of an animated PNG that is no part of the animation, which is shown for no time.
+fn cover(bytes: Vec<u8>) -> std::result::Result<Frame, String> {
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits()).map_err(|e| refusal(&e))?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(|e| refusal(&e))?;
+    Ok(Frame::from_parts(picture.into_rgba8(), 0, 0, Delay::from_numer_denom_ms(0, 1)))
 }
 
 fn gif(bytes: Vec<u8>) -> Opened {
@@ -118,25 +131,10 @@ fn gif(bytes: Vec<u8>) -> Opened {
     Ok((plays(decoder.loop_count()), Pictures::Moving(decoder.into_frames())))
 }
 
-/// Where a GIF ends; none if it is damaged, which the decoder tells.
-fn gif_end(bytes: &[u8]) -> Option<usize> {
-    let colors = |flags: u8| if flags & 0x80 == 0 { 0 } else { 6 << (flags & 7) };
-    let mut at = 13 + colors(*bytes.get(10)?);
-    loop {
-        at += match *bytes.get(at)? {
-            b';' => return Some(at + 1),
-            b',' => 11 + colors(*bytes.get(at + 9)?),
-            b'!' => 2,
-            _ => return None,
-        };
-        while let length @ 1.. = *bytes.get(at)? {
-            at += 1 + usize::from(length);
-        }
-        at += 1;
-    }
-}
-
 fn jpeg(bytes: Vec<u8>) -> Opened {
+    if jpeg_end(&bytes) != Some(bytes.len()) {
+        return Err("the JPEG is cut short, or has more behind its end".to_owned());
+    }
     let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(|e| refusal(&e))?;
     decoder.set_limits(limits()).map_err(|e| refusal(&e))?;
     still(decoder, &[])

@@ -7,6 +7,7 @@ use super::format::{Animation, Format, MAX_FPS, Playback};
 use super::gif::GIF;
 use super::mp4::MP4;
 use super::pattern::Pattern;
+use crate::session::files::numbered;
 use crate::session::stop::Stop;
 use drape::error::{Error, Kind, Result};
 use drape::output::provenance::Provenance;
@@ -44,12 +45,12 @@ impl Target {
     /// What a path stands for.
     ///
     /// # Errors
-    /// [`Kind::Usage`] when no format has its ending, or when a PNG has no place for the number.
+    /// [`Kind::Usage`] when no format has its ending, when a PNG has no place for the number, or another file has one.
     pub(crate) fn parse(path: &Path) -> Result<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let format = FORMATS.iter().copied().find(|format| Some(format.ending) == ending.as_deref());
         if let Some(format) = format {
-            return Ok(Self::File(path.into(), format));
+            return Ok(Self::File(numbered::one(path)?, format));
         }
         let pattern = Pattern::parse(path)?.filter(|_| ending.as_deref() == Some("png"));
         pattern.map(Self::Sequence).ok_or_else(|| {

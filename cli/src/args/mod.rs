@@ -3,6 +3,7 @@
 pub(crate) mod flag;
 pub(crate) mod frames;
 pub(crate) mod limit;
+pub(crate) mod output;
 pub(crate) mod part;
 pub(crate) mod provenance;
 pub(crate) mod render;

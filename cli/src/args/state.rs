@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::flag::seconds;
+use crate::args::output::output;
 use crate::session::files::atomic;
 use crate::session::files::target::Content;
 use drape::bounded;
@@ -20,7 +21,7 @@ pub(crate) struct StateArgs {
     #[arg(long, value_name = "FILE")]
     from_state: Option<PathBuf>,
     /// Write the whole state at the end to this file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     save_state: Option<PathBuf>,
     /// Write --save-state's file about every so many seconds of running time too, so that a run that is killed can go
     /// on from there

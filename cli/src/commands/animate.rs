@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         provenance: of(schedule.arguments()),
     };
     let drawn = args.draw(scene, &pipeline, session)?;
-    args.finish(playback, share, share - drawn.pictures, session)?;
+    args.finish(&target, playback, [share, share - drawn.pictures], session)?;
     if drawn.pictures > 0 && !drawn.visible {
         warn_of_nothing_visible("the pictures", &session.ui);
     }
@@ -169,13 +169,14 @@ impl Args {
     fn check_outputs(&self, scene: &Scene, target: &Target, schedule: &FrameSchedule) -> Result<()> {
         let inputs = [self.scene.inputs(), self.render.inputs(scene), self.state.inputs().collect()].concat();
         outputs::check(&inputs, self.state.outputs())?;
-        let Some(pattern) = target.pattern() else {
-            if self.part.is_some() {
+        let pattern = match target {
+            Target::Sequence(pattern) => pattern,
+            Target::File(path, _) if self.part.is_some() => {
                 let message =
-                    format!("--part divides numbered pictures, and `{}` is one file", self.out.display());
+                    format!("--part divides numbered pictures, and `{}` is one file", path.display());
                 return Err(Error::new(Kind::Usage, message).with_help("write to frames/%04d.png"));
             }
-            return outputs::check(&inputs, [(self.out.as_path(), Content::Binary)]);
+            Target::File(path, _) => return outputs::check(&inputs, [(path.as_path(), Content::Binary)]),
         };
         if !pattern.folder().as_os_str().is_empty() && !pattern.folder().exists() {
             // The folder is created, but its parent is not.
@@ -187,9 +188,19 @@ impl Args {
         outputs::check(&inputs, pictures.iter().map(|path| (path.as_path(), Content::Binary)))
     }
 
-    fn finish(&self, playback: Playback, pictures: u64, kept: u64, session: &Session) -> Result<()> {
+    fn finish(
+        &self,
+        target: &Target,
+        playback: Playback,
+        [pictures, kept]: [u64; 2],
+        session: &Session,
+    ) -> Result<()> {
         let Playback { width, height, fps, .. } = playback;
-        let out = self.out.display().to_string();
+        let out = match target {
+            Target::File(path, _) => path,
+            Target::Sequence(_) => &self.out,
+        };
+        let out = out.display().to_string();
         #[expect(clippy::cast_precision_loss, reason = "for people")]
         let seconds = pictures as f64 / f64::from(fps);
         let old = if kept > 0 { format!(", {kept} of them from an earlier run") } else { String::new() };

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use crate::args::flag::seconds;
 use crate::args::frames::frame;
+use crate::args::output::output;
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -39,7 +40,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = frame)]
     frame: Option<u64>,
     /// Write the choice to this file as a JSON merge patch, for --patch of the other commands
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     patch_out: Option<PathBuf>,
 }
 

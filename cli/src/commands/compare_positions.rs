@@ -9,7 +9,7 @@ use crate::args::frames::{Frames, frame};
 use crate::args::scene::{SceneArgs, StabilityArgs, frame_at};
 use crate::run::start::start_from;
 use crate::session::Session;
-use crate::session::files::target;
+use crate::session::files::{numbered, target};
 use crate::session::progress::{Progress, Stages};
 use drape::cloth::Points;
 use drape::error::{Error, Kind, Result};
@@ -114,7 +114,7 @@ impl Args {
     /// The states of the other program, and the first one's frame if their names say it.
     fn read(&self, grid: [usize; 2]) -> Result<(Option<u64>, Vec<State>)> {
         let Some(pattern) = Pattern::parse(&self.file)? else {
-            return Ok((None, grader::read(&self.file, grid)?));
+            return Ok((None, grader::read(&numbered::one(&self.file)?, grid)?));
         };
         if self.frame.is_some() || self.frames.is_some() {
             let message = "the names of the files say their frames, so there are none to name";

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::args::flag::seconds;
 use crate::args::frames::frame;
+use crate::args::output::output;
 use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::Session;
 use crate::session::files::atomic;
@@ -22,7 +23,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     scene: SceneArgs,
     /// Write a page that draws how the copies part
-    #[arg(value_name = "OUT.html")]
+    #[arg(value_name = "OUT.html", value_parser = output())]
     page: Option<PathBuf>,
     /// Simulated time in seconds, rounded to the nearest frame (default: the scene's render.time)
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frame")]

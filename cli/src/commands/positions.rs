@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::animation::pattern::Pattern;
 use crate::args::provenance::Detail;
 use crate::session::files::atomic;
+use crate::session::files::numbered::one;
 use crate::session::files::outputs;
 use crate::session::files::target::{Content, is_stdout};
 use crate::session::ui::Ui;
@@ -41,6 +42,14 @@ impl PositionsArgs {
         self.positions.as_deref().map_or(Ok(None), Pattern::parse)
     }
 
+    /// The one file, if the frames have none each.
+    ///
+    /// # Errors
+    /// As [`one`].
+    fn file(&self) -> Result<Option<PathBuf>> {
+        self.positions.as_deref().map(one).transpose()
+    }
+
     /// What each file says of itself, if that was asked for.
     ///
     /// # Errors
@@ -62,9 +71,11 @@ impl PositionsArgs {
         if let Some(pattern) = pattern.as_ref().filter(|pattern| !pattern.folder().as_os_str().is_empty()) {
             outputs::make_folder(pattern.folder())?;
         }
-        let Some(path) = pattern.map(|pattern| pattern.path(0)).or_else(|| self.positions.clone()) else {
-            return Ok(Vec::new());
+        let path = match pattern {
+            Some(pattern) => Some(pattern.path(0)),
+            None => self.file()?,
         };
+        let Some(path) = path else { return Ok(Vec::new()) };
         let beside = self.provenance.map(|_| (beside(&path), Content::Text));
         Ok([(path, Content::Binary)].into_iter().chain(beside).collect())
     }
@@ -99,13 +110,11 @@ impl PositionsArgs {
         simulation: &Simulation,
         ui: &Ui,
     ) -> Result<()> {
-        match (&self.positions, self.pattern()?) {
-            (Some(path), None) => write(path, scene, provenance, simulation)?,
+        if let Some(pattern) = self.pattern()? {
             // Those of earlier frames belong to a run that this one may have gone on from.
-            (_, Some(pattern)) => {
-                pattern.caution(|frame| frame > simulation.frame() || !frame.is_multiple_of(self.every), ui)
-            }
-            (None, None) => {}
+            pattern.caution(|frame| frame > simulation.frame() || !frame.is_multiple_of(self.every), ui);
+        } else if let Some(path) = self.file()? {
+            write(&path, scene, provenance, simulation)?;
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use serde::Serialize;
 
+use crate::args::output::output;
 use crate::args::render::{RenderArgs, warn_of_nothing_visible};
 use crate::args::scene::{Moment, SceneArgs};
 use crate::args::state::StateArgs;
@@ -31,7 +32,7 @@ pub(crate) struct Args {
     pub(crate) scene: SceneArgs,
     /// The picture to write, a PNG file (default: the name of the scene with .png, in the current folder; `-` for
     /// standard output)
-    #[arg(value_name = "OUT.png")]
+    #[arg(value_name = "OUT.png", value_parser = output())]
     picture: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) moment: Moment,
@@ -40,11 +41,11 @@ pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) render: RenderArgs,
     /// Write the depth of each pixel to this file: f32 little-endian, top row first (`-` for standard output)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     depth: Option<PathBuf>,
     /// Write what each pixel shows to this file: object << 24 | (triangle + 1), or 0 for the background; u32
     /// little-endian, top row first (`-` for standard output)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     ids: Option<PathBuf>,
     /// Print the statistics of drawing: counts of vertices, primitives and fragments
     #[arg(long)]

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::positions::PositionsArgs;
 use crate::args::flag::seconds;
 use crate::args::frames::frame;
+use crate::args::output::output;
 use crate::args::scene::{REST_TIME, SceneArgs, StabilityArgs, frame_at};
 use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
@@ -44,7 +45,7 @@ pub(crate) struct Args {
     /// Write a CSV table to this file, a row for each frame: time, energies, the energy that each phase added or
     /// removed, largest stretch, smallest distance, largest speed (`-` for standard output). A run that blows up or
     /// does not come to rest leaves the rows up to its last good frame
-    #[arg(long, value_name = "FILE", conflicts_with = "bench")]
+    #[arg(long, value_name = "FILE", value_parser = output(), conflicts_with = "bench")]
     csv: Option<PathBuf>,
     /// Add to the summary the energy that each phase added or removed; a step takes two to four times as long
     #[arg(long, conflicts_with_all = ["bench", "hash"])]

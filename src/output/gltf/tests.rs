@@ -52,6 +52,36 @@ fn a_file_says_of_what_it_is() {
     assert_eq!(document(&bytes)["asset"]["extras"]["drape"], expected);
 }
 
+#[test]
+fn a_mesh_far_from_the_origin_keeps_its_shape() {
+    let material = Material::default();
+    let near = skew(&material);
+    for (far, is_moved) in [([0.0; 3], false), ([1e3, 0.0, 0.0], false), ([1e7, -4e6, 3e9], true)] {
+        let shift = |positions: &[[f64; 3]]| -> Vec<[f64; 3]> {
+            positions.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + far[axis])).collect()
+        };
+        let part = Part { positions: shift(&near.positions), ..skew(&material) };
+        let second = Shape {
+            positions: part.positions.iter().map(|p| [p[0] + 0.125, p[1], p[2]]).collect(),
+            normals: part.normals.clone(),
+        };
+        let first = Shape { positions: part.positions.clone(), normals: part.normals.clone() };
+        let motion = Motion { times: vec![0.0, 1.0], frames: vec![first, second] };
+        let bytes = encode(std::slice::from_ref(&part), Some(&motion), None, |_| Ok(Vec::new())).unwrap();
+        let document = document(&bytes);
+        let translation = &document["nodes"][0]["translation"];
+        assert_eq!(translation.is_array(), is_moved, "{far:?}");
+        let primitive = &document["meshes"][0]["primitives"][0];
+        let places = floats(&bytes, &document, &primitive["attributes"]["POSITION"]);
+        for (i, expected) in part.positions.as_flattened().iter().enumerate() {
+            let place = f64::from(places[i]) + translation[i % 3].as_f64().unwrap_or(0.0);
+            assert!((place - expected).abs() < 1e-4, "{far:?}: {place} instead of {expected}");
+        }
+        let moved = floats(&bytes, &document, &primitive["targets"][0]["POSITION"]);
+        assert_eq!(moved, [0.125, 0.0, 0.0].repeat(3), "{far:?}");
+    }
+}
+
 /// A triangle whose numbers all differ.
 fn skew(material: &Material) -> Part<'_> {
     Part {

@@ -31,6 +31,49 @@ fn pillow_sees_every_picture_of_a_gif_and_an_apng_in_its_colours() {
     }
 }
 
+/// Of a picture with far more colours than a GIF can have, ours shows nearer ones than ffmpeg's, by what the page says.
+#[test]
+fn the_colours_of_a_gif_are_nearer_than_those_of_ffmpeg() {
+    let scratch = Scratch::new();
+    let close = [
+        &["--time", "0.3", "--fps", "20", "--size", "320x250", "--shader", "texture"][..],
+        &["--set", "camera.distance=0.5", "--set", "camera.target=[0.5,1,0.5]", "--set", "camera.polar=20"],
+    ]
+    .concat();
+    let path = scene("pinned2.json");
+    std::fs::create_dir(scratch.path("p")).unwrap();
+    for out in ["p/%04d.png", "ours.gif"] {
+        scratch.succeed(&[&["animate", &path, out][..], &close].concat());
+    }
+    let error = |gif: &str| {
+        let found = python(&scratch, "animations", &[gif, "p"])?;
+        assert_eq!(found["pictures"], 6, "{gif}");
+        let errors = found["errors"].as_array().unwrap().iter().map(|error| error.as_f64().unwrap());
+        Some(errors.sum::<f64>() / 6.0)
+    };
+    let ffmpeg = |dither: &str| {
+        let palettes =
+            format!("split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1{dither}");
+        let encode =
+            ["-y", "-v", "error", "-framerate", "20", "-i", "p/%04d.png", "-filter_complex", &palettes];
+        program(&scratch, "ffmpeg", &[&encode[..], &["theirs.gif"]].concat())?;
+        error("theirs.gif")
+    };
+    let (Some(ours), Some(dithered), Some(plain)) = (error("ours.gif"), ffmpeg(""), ffmpeg(":dither=none"))
+    else {
+        return;
+    };
+    println!("mean error of a channel: ours {ours:.3}, ffmpeg {dithered:.3}, without dithering {plain:.3}");
+    assert!(ours < plain && ours < dithered, "{ours}, ffmpeg {dithered} and {plain}");
+    let page = std::fs::read_to_string(crate::repository::path("docs/recipes.md")).unwrap();
+    assert!(page.contains(&format!("a channel is {ours:.2} of 255")), "{ours}");
+    // Other versions of ffmpeg may choose a little differently.
+    for (found, stated) in [(dithered, "1.62"), (plain, "1.41")] {
+        let expected: f64 = stated.parse().unwrap();
+        assert!(page.contains(stated) && (found - expected).abs() < 0.1, "{found} instead of {stated}");
+    }
+}
+
 #[test]
 fn a_film_is_tagged_bt_709_and_shows_the_colours_of_the_pictures() {
     let scratch = Scratch::new();

@@ -8,6 +8,7 @@ mod folders;
 use std::fs;
 use std::path::PathBuf;
 
+use crate::args::output::output;
 use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
@@ -39,11 +40,11 @@ pub(crate) struct Args {
     mask: Option<PathBuf>,
     /// Write the difference of two pictures to this PNG file (`-` for standard output); of animations that of the
     /// first picture that differs
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     diff: Option<PathBuf>,
     /// Write a page that shows the expected picture, the difference and the actual picture side by side; of animations
     /// the first picture that differs
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     html: Option<PathBuf>,
 }
 

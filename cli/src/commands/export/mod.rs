@@ -3,7 +3,7 @@
 mod format;
 mod write;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -15,6 +15,7 @@ use crate::args::state::StateArgs;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
+use crate::session::files::numbered::one;
 use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 use drape::math::StateHash;
@@ -82,7 +83,8 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     args.provenance.caution(&args.mesh, format == Format::Glb, &session.ui);
     args.caution(format, &session.ui);
-    let writer = Writer { path: &args.mesh, format, pattern, materials: args.materials, source: &source };
+    let path = if pattern.is_some() { args.mesh.clone() } else { one(&args.mesh)? };
+    let writer = Writer { path: &path, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
     writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
     let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
@@ -109,7 +111,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         writer.whole(args.base(parts.clone(), &motion), Some(&motion).filter(|_| moves), (state, &said))?;
     }
     writer.stale(frames.end - frames.start, session);
-    args.report(&simulation, &parts, frames.end - frames.start, session)?;
+    args.report(&path, &simulation, &parts, frames.end - frames.start, session)?;
     ended.result()
 }
 
@@ -199,6 +201,7 @@ impl Args {
 
     fn report(
         &self,
+        path: &Path,
         simulation: &Simulation,
         parts: &[Part<'_>],
         frames: u64,
@@ -207,7 +210,7 @@ impl Args {
         let (frame, time) = (simulation.frame(), simulation.time());
         let points = parts.iter().map(|part| part.positions.len()).sum();
         let triangles = parts.iter().map(|part| part.triangles.len()).sum();
-        let mesh = self.mesh.display().to_string();
+        let mesh = path.display().to_string();
         let several = if frames > 1 { format!("{frames} frames, the last is ") } else { String::new() };
         let line =
             format!("{mesh}: {points} points, {triangles} triangles, {several}frame {frame}, {time} s");

@@ -4,15 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::atomic;
-use super::numbered::place;
 use super::target::{Content, folder, is_stdout};
 use drape::error::{Error, Kind, Result};
 
 /// Checks that every output can be written, that no two are the same file, and that none is an input.
 ///
 /// # Errors
-/// [`Kind::Usage`] for a clash, a name with a place for a number, or binary content on a terminal; [`Kind::Io`]
-/// otherwise.
+/// [`Kind::Usage`] for a clash, or binary content on a terminal; [`Kind::Io`] otherwise.
 pub(crate) fn check<'a>(
     inputs: &[PathBuf],
     outputs: impl IntoIterator<Item = (&'a Path, Content)>,
@@ -24,13 +22,6 @@ pub(crate) fn check<'a>(
         if read.contains(&file) {
             let message = format!("the output `{}` is also an input", path.display());
             return Err(Error::new(Kind::Usage, message).with_help("name another file for the output"));
-        }
-        if let Some([_, width, _]) = place(path) {
-            let message =
-                format!("`{}` is one file, and %{width}d stands for the number of many", path.display());
-            return Err(
-                Error::new(Kind::Usage, message).with_help(format!("leave %{width}d out of the name"))
-            );
         }
         if taken.contains(&file) {
             let message = format!("`{}` is named for two outputs", path.display());
@@ -114,10 +105,5 @@ mod tests {
         assert_eq!(kind(&[&other("./scene.json")]), Err(Kind::Usage));
         assert_eq!(kind(&[Path::new("-"), Path::new("-")]), Err(Kind::Usage));
         assert_eq!(kind(&[&other("no/a")]), Err(Kind::Io));
-        assert_eq!(kind(&[&other("50% a")]), Ok(()));
-        assert_eq!(
-            [kind(&[&other("%d.png")]), kind(&[&other("a%04d")])],
-            [Err(Kind::Usage), Err(Kind::Usage)]
-        );
     }
 }

@@ -21,6 +21,8 @@ pub(crate) enum Varyings {
     /// The same place, with the division by 1/w in the fragment shader: each varying times 1/w and 1/w itself are
     /// interpolated there without perspective.
     CentroidDivided,
+    /// The same with the 1/w of the pixel's centre.
+    CentroidOverCentre,
 }
 
 /// A shader's own files, and its vertex stage with ids as colours.
@@ -55,10 +57,16 @@ impl Varyings {
             _ if !is_varying(line) => line.to_owned(),
             Self::Centre => line.to_owned(),
             Self::Centroid => format!("centroid {line}"),
-            Self::CentroidDivided => line.trim_start_matches("in ").trim_start_matches("out ").to_owned(),
+            Self::CentroidDivided | Self::CentroidOverCentre => {
+                line.trim_start_matches("in ").trim_start_matches("out ").to_owned()
+            }
         });
         let text = lines.collect::<Vec<_>>().join("\n") + "\n";
-        if self == Self::CentroidDivided { divided(&text, &varyings) } else { text }
+        match self {
+            Self::Centre | Self::Centroid => text,
+            Self::CentroidDivided => divided(&text, &varyings, "centroid "),
+            Self::CentroidOverCentre => divided(&text, &varyings, ""),
+        }
     }
 }
 
@@ -67,11 +75,11 @@ fn is_varying(line: &str) -> bool {
 }
 
 /// A shader whose `varyings` are plain variables now: the vertex stage hands on each times 1/w, which the fragment stage
-/// divides by 1/w.
-fn divided(text: &str, varyings: &[&str]) -> String {
+/// divides by the 1/w of the place that the qualifier `of_w` names.
+fn divided(text: &str, varyings: &[&str], of_w: &str) -> String {
     let is_vertex = text.contains("gl_Position");
     let way = if is_vertex { "out" } else { "in" };
-    let mut declared = format!("noperspective centroid {way} float q_w;\n");
+    let mut declared = format!("noperspective {of_w}{way} float q_w;\n");
     let mut assigned = String::new();
     for varying in varyings {
         let kind = varying.split_whitespace().nth(1).unwrap();
