@@ -36,7 +36,7 @@ pub struct Texture {
     transparent: bool,
     /// Red alone, once it was asked for.
     red: OnceLock<Vec<f32>>,
-    /// All texels with 8 bits a channel, once they were asked for; `None` if some have more.
+    /// What [`Texture::pack_all`] gives, once it was asked for.
     packed: OnceLock<Option<Vec<u32>>>,
 }
 
@@ -154,9 +154,18 @@ impl Texture {
     /// All texels for bilinear look-ups, which may ask for them packed. Where 8 bits a channel are enough, those are a
     /// quarter of the memory to look into, which the caches hold for longer.
     pub fn for_look_ups(&self, packed: bool) -> Texels<'_> {
-        let pack_all = || self.texels.iter().copied().map(pack).collect();
-        let packed = if packed { self.packed.get_or_init(pack_all).as_deref() } else { None };
+        let packed = if packed { self.packed.get_or_init(|| self.pack_all()).as_deref() } else { None };
         Texels { full: &self.texels, packed }
+    }
+
+    /// All texels with 8 bits a channel. `None` if some have more, or if there is no memory for them: they only save time.
+    fn pack_all(&self) -> Option<Vec<u32>> {
+        let mut packed = Vec::new();
+        packed.try_reserve_exact(self.texels.len()).ok()?;
+        for &texel in &self.texels {
+            packed.push(pack(texel)?);
+        }
+        Some(packed)
     }
 }
 

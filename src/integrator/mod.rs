@@ -20,6 +20,7 @@ mod transfer;
 mod vectors;
 mod verlet;
 mod verlet_f32;
+mod wave;
 mod xpbd;
 
 use std::fmt::Debug;

@@ -193,7 +193,8 @@ fn fewer_threads_than_asked_for_give_the_same_bytes() {
         assert_eq!(run_in(&scratch, ":", &format!("{arguments} --threads 4")).code, Some(0));
         let right = scratch.read(out);
         std::fs::remove_file(scratch.path(out)).unwrap();
-        let run = run_in(&scratch, "ulimit -v 150000", &format!("{arguments} --threads 64"));
+        // Where a little more is left, the allocator of glibc may set all of it aside for one thread.
+        let run = run_in(&scratch, "ulimit -v 140000", &format!("{arguments} --threads 64"));
         assert_eq!(run.code, Some(0), "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains("of 64 threads could be started"), "{}", run.stderr);
         assert_eq!(scratch.read(out), right, "{arguments}");

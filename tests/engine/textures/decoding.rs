@@ -46,6 +46,19 @@ fn all_65536_words_are_rounded_once() {
     }
 }
 
+/// Half of a texel of 8 bits is none, and without being asked nothing is packed.
+#[test]
+fn only_texels_of_8_bits_are_packed() {
+    let packed = |rgb: &[[f32; 3]], asked: bool| {
+        let texture = Texture::from_rgb(2, 1, rgb).unwrap();
+        texture.for_look_ups(asked).packed.map(<[u32]>::to_vec)
+    };
+    let eight = [[1.0, 0.2, 0.0], [0.0, 0.0, 128.0 / 255.0]];
+    assert_eq!(packed(&eight, true), Some(vec![0x0000_33FF, 0x0080_0000]));
+    assert_eq!(packed(&eight, false), None);
+    assert_eq!(packed(&[[1.0, 0.2, 0.0], [0.0, 0.0, 127.5 / 255.0]], true), None);
+}
+
 #[test]
 fn every_channel_layout_gives_rgb_and_one() {
     let unit8 = |c: [u8; 3]| [f32::from(c[0]) / 255.0, f32::from(c[1]) / 255.0, f32::from(c[2]) / 255.0, 1.0];
