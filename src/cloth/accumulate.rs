@@ -106,7 +106,7 @@ impl<T: Real, P: Fn(usize, &Family, Range<usize>, [&mut [T]; 3])> Band<'_, T, P>
     fn pull_row(&mut self, j: usize) {
         for (index, family) in self.springs.families.iter().enumerate() {
             let out = self.pulls.each_mut().map(|component| component[family.slot].as_mut_slice());
-            let up = family.rows.start;
+            let up = family.up;
             if j < up {
                 out.into_iter().for_each(|component| component.fill(T::default()));
             } else if j - up < self.rows.end {

@@ -127,6 +127,10 @@ pub struct Family {
     pub columns: Range<usize>,
     /// Rows of the owners.
     pub rows: Range<usize>,
+    /// Columns to the left from the owner to the other end.
+    pub left: isize,
+    /// Rows up from the owner to the other end.
+    pub up: usize,
     /// Index of the owner minus index of the other end.
     pub offset: usize,
     /// Stiffness, in N/m.
@@ -138,10 +142,10 @@ pub struct Family {
 impl Family {
     /// Family `slot` of `cloth` whose points start at `start`.
     fn new(slot: usize, cloth: &Cloth, grid: Grid, start: &Points) -> Result<Self> {
-        let stencil = STENCILS[slot];
-        let (kind, columns, rows) = (stencil.kind, stencil.columns(grid), stencil.rows(grid));
-        let (offset, stiffness) = (stencil.offset(grid), cloth.ks * kind.relative_stiffness());
-        let mut family = Self { kind, slot, columns, rows, offset, stiffness, rest: Vec::new() };
+        let stencil @ Stencil { kind, left, up } = STENCILS[slot];
+        let (columns, rows, offset) = (stencil.columns(grid), stencil.rows(grid), stencil.offset(grid));
+        let stiffness = cloth.ks * kind.relative_stiffness();
+        let mut family = Self { kind, slot, columns, rows, left, up, offset, stiffness, rest: Vec::new() };
         family.rest = filled(grid.len(), 0.0)?;
         for a in family.points(grid) {
             family.rest[a] = len(start.get(a) - start.get(a - offset));

@@ -215,19 +215,15 @@ fn owned<'a>(
     let Grid { width, height } = springs.grid;
     let [px, py, pz] = pulls.three_mut(3 * slot);
     let family = springs.families.iter().zip(fixed).find(|(family, _)| family.slot == slot);
-    let present = family.filter(|(family, _)| {
-        let up = family.rows.start;
-        (up..height.min(end + up)).contains(&j)
-    });
+    let present = family.filter(|(family, _)| (family.up..height.min(end + family.up)).contains(&j));
     let Some((family, fixed)) = present else {
         px.fill([0.0; LANES]);
         py.fill([0.0; LANES]);
         pz.fill([0.0; LANES]);
         return None;
     };
-    let up = family.rows.start;
-    let right = (up * width) as isize - family.offset as isize;
-    let (a, b) = (&x[j % 3], &x[(j - up) % 3]);
+    let right = -family.left;
+    let (a, b) = (&x[j % 3], &x[(j - family.up) % 3]);
     let rest = family.rest.get(j * width..j * width + width.next_multiple_of(LANES));
     Some(Owned {
         k: family.stiffness,

@@ -21,6 +21,7 @@ mod vectors;
 mod verlet;
 mod verlet_f32;
 mod wave;
+mod window;
 mod xpbd;
 
 use std::fmt::Debug;

@@ -16,7 +16,8 @@ use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
 use super::damped_step::DampedStep;
-use super::wave::{Chunk, Direction, LANES, LIFE, Wave, Window};
+use super::wave::{Chunk, LANES, LIFE, Wave};
+use super::window::{Direction, Window};
 use super::{Integrator, StepBound};
 use crate::cloth::grid::{Grid, Pins};
 use crate::cloth::springs::{Family, Springs};
@@ -113,8 +114,6 @@ struct Constraints {
 impl Constraints {
     /// The springs of `family`, which join points of `grid`.
     fn new(family: &Family, grid: Grid, waves: &[Wave]) -> Result<Self> {
-        let up = family.rows.start;
-        let left = (family.offset as isize).wrapping_sub_unsigned(up * grid.width);
         let chunks = waves.last().map_or(0, |wave| wave.chunks.end);
         let mut rest = filled(chunks, [f64::NAN; LANES])?;
         for wave in waves {
@@ -127,7 +126,7 @@ impl Constraints {
             }
         }
         Ok(Self {
-            direction: Direction::new(left, up),
+            direction: Direction::of(family),
             stiffness: family.stiffness,
             rest,
             tensions: filled(chunks, [0.0; LANES])?,
