@@ -7,7 +7,9 @@ import trimesh
 
 scene = trimesh.load(sys.argv[1], process=False, force="scene")
 result = {}
-for name, mesh in scene.geometry.items():
+for node in scene.graph.nodes_geometry:
+    place, name = scene.graph[node]
+    mesh = scene.geometry[name].copy().apply_transform(place)
     found = {
         "vertices": len(mesh.vertices),
         "faces": len(mesh.faces),

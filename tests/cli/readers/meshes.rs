@@ -74,6 +74,25 @@ fn trimesh_reads_the_other_objects_where_they_are() {
     }
 }
 
+/// Numbers of 32 bits are 6 cm apart there.
+#[test]
+fn trimesh_reads_what_is_a_million_metres_away_in_its_shape() {
+    let scratch = Scratch::new();
+    textures(&scratch);
+    let bounds = |x: f64| {
+        let offset = format!("cloth.offset=[{x},0,0]");
+        export(&scratch, "far.glb", &["--frame", "0", "--set", &offset]);
+        let found = python(&scratch, "meshes", &["far.glb"])?;
+        let cloth = found.as_object().unwrap().values().next().unwrap();
+        Some(serde_json::from_value::<[[f64; 3]; 2]>(cloth["bounds"].clone()).unwrap())
+    };
+    let (Some(near), Some(far)) = (bounds(0.0), bounds(1e6)) else { return };
+    for (near, far) in near.into_iter().zip(far) {
+        let away = (far[0] - near[0] - 1e6).abs().max((far[1] - near[1]).abs()).max((far[2] - near[2]).abs());
+        assert!(away < 1e-6, "{near:?} and {far:?}");
+    }
+}
+
 /// What the Khronos validator says of a file.
 fn validated(scratch: &Scratch, file: &str) -> Option<Value> {
     let script = crate::repository::path("tests/cli/readers/validate.js");
@@ -96,6 +115,7 @@ fn the_khronos_validator_finds_nothing_to_say() {
         ("one.glb", &["--frame", "30"][..]),
         ("all.glb", &["--frame", "30", "--objects"]),
         ("motion.glb", &["--frames", "3..9", "--objects"]),
+        ("far.glb", &["--frame", "3", "--set", "cloth.offset=[1e6,0,0]"]),
         ("colour.glb", &["--frame", "3", "--set", "cloth.material.shader=phong"]),
     ] {
         export(&scratch, out, more);
