@@ -24,10 +24,11 @@ use commands::{
 };
 use session::stop::{self, Stop};
 use session::ui::Ui;
-use session::{Session, exit_code, guard, threads};
+use session::{Session, exit_code, guard, one_arena, threads};
 
 fn main() -> ExitCode {
     stop::exit_without_memory();
+    one_arena::ensure();
     let json = std::env::args_os().any(|argument| argument == "--json");
     ExitCode::from(guard::guarded(json, || match CommandLine::try_parse() {
         Ok(arguments) => {

@@ -193,12 +193,53 @@ fn fewer_threads_than_asked_for_give_the_same_bytes() {
         assert_eq!(run_in(&scratch, ":", &format!("{arguments} --threads 4")).code, Some(0));
         let right = scratch.read(out);
         std::fs::remove_file(scratch.path(out)).unwrap();
-        // Where a little more is left, the allocator of glibc may set all of it aside for one thread.
-        let run = run_in(&scratch, "ulimit -v 140000", &format!("{arguments} --threads 64"));
+        let run = run_in(&scratch, "ulimit -v 150000", &format!("{arguments} --threads 64"));
         assert_eq!(run.code, Some(0), "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains("of 64 threads could be started"), "{}", run.stderr);
         assert_eq!(scratch.read(out), right, "{arguments}");
         std::fs::remove_file(scratch.path(out)).unwrap();
     };
     COMMANDS.into_iter().for_each(sound);
+}
+
+/// What a thread sets aside and does not use is not missing for the work: where a limit suffices, larger ones do.
+#[test]
+fn more_addresses_never_lead_from_success_to_failure() {
+    let scratch = Scratch::new();
+    for threads in [1, 2, 64] {
+        let arguments = format!(
+            "render small.json out.png --frame 0 --size 64x64 --shader custom --samples 4 -q --threads {threads}"
+        );
+        let code = |kibibytes| run_in(&scratch, &format!("ulimit -v {kibibytes}"), &arguments).code;
+        let codes: Vec<_> = (50_000..300_000).step_by(15_500).map(code).collect();
+        let failed = codes.iter().take_while(|&&code| code == Some(6)).count();
+        assert!(failed > 0 && failed < codes.len(), "{threads} threads: {codes:?}");
+        assert!(codes[failed..].iter().all(|&code| code == Some(0)), "{threads} threads: {codes:?}");
+    }
+}
+
+/// Its springs are for several threads. Where one can be started that one may be the one that draws.
+#[test]
+fn a_large_cloth_under_any_limit_waits_for_no_thread() {
+    let scratch = Scratch::new();
+    let set = "cloth.thickness=0.001 --set cloth.num_width_points=100 --set cloth.num_height_points=100";
+    let arguments = format!("animate small.json out.gif --frames 0..3 --size 16x16 -q --set {set}");
+    assert_eq!(run_in(&scratch, ":", &arguments).code, Some(0));
+    let right = scratch.read("out.gif");
+    let mut codes = BTreeSet::new();
+    for kibibytes in (19_000..31_000).step_by(500) {
+        std::fs::remove_file(scratch.path("out.gif")).unwrap();
+        let run =
+            run_in(&scratch, &format!("ulimit -v {kibibytes}"), &format!("{arguments} --time-limit 60"));
+        codes.insert(run.code);
+        match run.code {
+            Some(0) => assert!(scratch.read("out.gif") == right, "{kibibytes}"),
+            code => {
+                let named = run.stderr.contains("memory") && !run.stderr.contains("internal");
+                assert!(named, "{kibibytes}: {code:?} {}", run.stderr);
+            }
+        }
+        std::fs::write(scratch.path("out.gif"), &right).unwrap();
+    }
+    assert_eq!(codes, BTreeSet::from([Some(0), Some(3), Some(6)]));
 }

@@ -17,6 +17,7 @@ use crate::session::Session;
 use crate::session::files::outputs;
 use crate::session::leftovers::locked;
 use crate::session::progress::Progress;
+use crate::session::{spawn, threads};
 use drape::cloth::Points;
 use drape::error::Result;
 use drape::math::StateHash;
@@ -132,18 +133,22 @@ impl Pipeline<'_> {
         Ok((drawn, unlocked(work.simulation)))
     }
 
-    /// The three stages, the first and the last on threads of their own; nothing if those cannot be started.
+    /// The three stages, the first and the last on threads of their own; nothing if those cannot be started, or if
+    /// this thread, which draws, is the only one for the parallel work of all three.
     fn side_by_side<E: Each>(&self, work: &Work<E>, session: &Session) -> Result<Option<Drawn>> {
+        if threads::is_the_only_one() {
+            return Ok(None);
+        }
         thread::scope(|scope| {
             let (states, to_draw) = sync_channel(QUEUE);
             let (pictures, to_encode) = sync_channel(QUEUE);
             let encoding = move || to_encode.into_iter().try_for_each(|picture| self.encode(work, picture));
             let simulating = move || self.simulate(work, session, |state| Ok(states.send(state).is_ok()));
             // The encoder first, which does nothing if the other cannot be started.
-            let Ok(encoding) = thread::Builder::new().spawn_scoped(scope, encoding) else { return Ok(None) };
-            let Ok(simulating) = thread::Builder::new().spawn_scoped(scope, simulating) else {
-                return Ok(None);
-            };
+            let start = spawn::builder().and_then(|thread| thread.spawn_scoped(scope, encoding));
+            let Ok(encoding) = start else { return Ok(None) };
+            let start = spawn::builder().and_then(|thread| thread.spawn_scoped(scope, simulating));
+            let Ok(simulating) = start else { return Ok(None) };
             let mut drawn = Drawn::default();
             for state in to_draw {
                 if pictures.send(self.draw(state, &mut drawn)).is_err() {

@@ -1,5 +1,7 @@
 //! What every command shares: messages on standard error, progress, what stops it, and the files it writes.
 
+pub(crate) mod one_arena;
+pub(crate) mod spawn;
 pub(crate) mod leftovers;
 pub(crate) mod memory;
 pub(crate) mod program;

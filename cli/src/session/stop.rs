@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
 use signal_hook::{flag, low_level};
 
-use super::{leftovers, memory, progress, ui::Ui};
+use super::{leftovers, memory, progress, spawn, ui::Ui};
 use drape::error::{Error, Kind, Result};
 
 /// How long a command may take from a first signal to its end.
@@ -76,7 +76,9 @@ impl Stop {
         let watched = Watched { signal, limits, started: Instant::now(), reason: OnceLock::new() };
         let watched = Arc::new(watched);
         let for_thread = Arc::clone(&watched);
-        let thread = thread::Builder::new().name("watch".to_owned()).spawn(move || for_thread.watch(ui));
+        let start =
+            |thread: thread::Builder| thread.name("watch".to_owned()).spawn(move || for_thread.watch(ui));
+        let thread = spawn::builder().and_then(start);
         match thread {
             Ok(_) => {}
             Err(e) if limits.memory.is_some() => {
@@ -179,10 +181,11 @@ impl Watched {
 /// may be held by a thread that waits for its reader.
 fn last_words(ui: Ui, error: Error) {
     let (done, printed) = channel();
-    let printer = thread::Builder::new().spawn(move || {
+    let print = move || {
         ui.error(&error);
         let _ = done.send(());
-    });
+    };
+    let printer = spawn::builder().and_then(|thread| thread.spawn(print));
     if printer.is_ok() {
         let _ = printed.recv_timeout(LAST_WORDS);
     }

@@ -7,11 +7,12 @@ use std::thread;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use super::Session;
+use super::spawn::{self, STACK};
 use drape::diagnostics::memory::check_available;
 use drape::error::{Error, Kind, Result};
 
-/// Starts `asked` threads, or one for each core for 0. Where the system allows fewer it starts as many as it can, at
-/// worst none besides the present one: the results are the same.
+/// Starts `asked` threads, or one for each core for 0. Where the system allows fewer, or has memory for their
+/// stacks only, it starts fewer, at worst none besides the present one: the results are the same.
 ///
 /// # Errors
 /// [`Kind::Io`] when not even that can be done.
@@ -19,7 +20,7 @@ pub(crate) fn start(asked: usize, session: &Session) -> Result<()> {
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
     let asked = if asked == 0 { cores } else { asked };
     let halves = std::iter::successors(Some(asked), |count| Some(count / 2));
-    let room = halves.take_while(|&count| count > 1).find(|&count| has_room(count)).unwrap_or(1);
+    let room = halves.take_while(|&count| count > 0).find(|&count| has_room(count)).unwrap_or(0);
     let count = startable(room);
     if count == asked {
         return ThreadPoolBuilder::new().num_threads(asked).build_global().map_err(|e| failed(&e));
@@ -31,15 +32,24 @@ pub(crate) fn start(asked: usize, session: &Session) -> Result<()> {
         .use_current_thread()
         .build_global()
         .map_err(|e| failed(&e))?;
-    let message = format!("only {count} of {asked} threads could be started");
-    session.ui.caution(&message, "the results are the same, later; the system limits them (ulimit -u, -v)");
+    if count < asked {
+        let message = format!("only {count} of {asked} threads could be started");
+        session
+            .ui
+            .caution(&message, "the results are the same, later; the system limits them (ulimit -u, -v)");
+    }
     Ok(())
 }
 
-/// Whether there is memory for the stacks of `count` threads and as much again.
+/// Whether there is memory for the stacks of `count` more threads and three times as much for what they do.
 fn has_room(count: usize) -> bool {
-    const STACK: u64 = 2 << 20;
-    check_available(2 * STACK * count as u64, "threads").is_ok()
+    check_available(4 * STACK * count as u64, "threads").is_ok()
+}
+
+/// Whether the present thread does all parallel work. Another thread that has such work waits while this one does
+/// anything else, so neither may wait for the other.
+pub(crate) fn is_the_only_one() -> bool {
+    rayon::current_num_threads() == 1 && rayon::current_thread_index().is_some()
 }
 
 /// How many threads of `asked` can run at once. It is found by trying, since the pool of the process can be built
@@ -49,7 +59,8 @@ fn startable(asked: usize) -> usize {
     let hold = held.lock();
     thread::scope(|scope| {
         let wait = || drop(held.lock());
-        let started = (0..asked).map_while(|_| thread::Builder::new().spawn_scoped(scope, wait).ok()).count();
+        let start = || spawn::builder().and_then(|thread| thread.spawn_scoped(scope, wait));
+        let started = (0..asked).map_while(|_| start().ok()).count();
         drop(hold);
         started
     })
