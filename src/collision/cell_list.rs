@@ -15,7 +15,7 @@ pub(super) struct CellList {
     /// The points by cell, and by index within a cell.
     pub(super) order: Vec<u32>,
     /// The cells with a point, in order, each with the end of its range of `order`.
-    cells: Vec<(CellKey, usize)>,
+    pub(super) cells: Vec<(CellKey, usize)>,
     /// The cells with two or more points, as ranges of `order`.
     pub(super) shared: Vec<Range<usize>>,
 }
@@ -38,7 +38,7 @@ impl CellList {
     }
 
     /// Becomes `old` without the points `leaving` and with the points `entering`, each of them sorted and
-    /// after the cell that it leaves or enters.
+    /// after the cell that it leaves or enters. Between the cells that change others are copied at once: in a step most.
     pub(super) fn merge(
         &mut self,
         old: &Self,
@@ -46,20 +46,22 @@ impl CellList {
         mut entering: &[(CellKey, u32)],
     ) {
         self.clear();
-        let mut start = 0;
-        for &(key, end) in &old.cells {
-            self.push_new(&mut entering, |new| new < key);
-            self.push(key, &old.order[start..end], &mut leaving, &mut entering);
-            start = end;
+        let mut rest = Stretch { cells: &old.cells, shared: &old.shared, points: 0..old.order.len() };
+        loop {
+            let changed = leaving.first().into_iter().chain(entering.first()).map(|&(key, _)| key).min();
+            self.extend(&rest.split_off(|cell| changed.is_none_or(|key| cell < key)), &old.order);
+            let Some(key) = changed else { break };
+            let members = rest.split_off(|cell| cell == key).points;
+            self.push(key, &old.order[members], &mut leaving, &mut entering);
         }
-        self.push_new(&mut entering, |_| true);
     }
 
-    /// Adds the cells at the front of `entering` that `is_new` says had no point.
-    fn push_new(&mut self, entering: &mut &[(CellKey, u32)], is_new: impl Fn(CellKey) -> bool) {
-        while let Some(&(key, _)) = entering.first().filter(|(key, _)| is_new(*key)) {
-            self.push(key, &[], &mut [].as_slice(), entering);
-        }
+    /// Adds a stretch of a list with that `order` that no point left or entered.
+    fn extend(&mut self, Stretch { cells, shared, points }: &Stretch<'_>, order: &[u32]) {
+        let (before, now) = (points.start, self.order.len());
+        self.order.extend_from_slice(&order[points.clone()]);
+        self.cells.extend(cells.iter().map(|&(key, end)| (key, end - before + now)));
+        self.shared.extend(shared.iter().map(|of| of.start - before + now..of.end - before + now));
     }
 
     /// Adds the cell `key`: its `members` without those at the front of `leaving` that left it, and with those at
@@ -72,21 +74,16 @@ impl CellList {
         entering: &mut &[(CellKey, u32)],
     ) {
         let start = self.order.len();
-        let is_next = |list: &[(CellKey, u32)]| list.first().is_some_and(|&(of, _)| of == key);
-        if is_next(leaving) || is_next(entering) {
-            for &p in members {
-                while let Some(q) = take(entering, |next| next < (key, p)) {
-                    self.order.push(q);
-                }
-                if take(leaving, |next| next == (key, p)).is_none() {
-                    self.order.push(p);
-                }
-            }
-            while let Some(q) = take(entering, |(of, _)| of == key) {
+        for &p in members {
+            while let Some(q) = take(entering, |next| next < (key, p)) {
                 self.order.push(q);
             }
-        } else {
-            self.order.extend_from_slice(members);
+            if take(leaving, |next| next == (key, p)).is_none() {
+                self.order.push(p);
+            }
+        }
+        while let Some(q) = take(entering, |(of, _)| of == key) {
+            self.order.push(q);
         }
         let end = self.order.len();
         if end > start {
@@ -95,6 +92,27 @@ impl CellList {
         if end > start + 1 {
             self.shared.push(start..end);
         }
+    }
+}
+
+/// A stretch of a list.
+struct Stretch<'a> {
+    cells: &'a [(CellKey, usize)],
+    shared: &'a [Range<usize>],
+    points: Range<usize>,
+}
+
+impl Stretch<'_> {
+    /// Takes off its first cells, as many as `is_taken` says so of.
+    fn split_off(&mut self, is_taken: impl Fn(CellKey) -> bool) -> Self {
+        let count = self.cells.iter().take_while(|&&(cell, _)| is_taken(cell)).count();
+        let (cells, rest) = self.cells.split_at(count);
+        let end = cells.last().map_or(self.points.start, |&(_, end)| end);
+        let count = self.shared.iter().take_while(|of| of.start < end).count();
+        let (shared, rest_shared) = self.shared.split_at(count);
+        let taken = Self { cells, shared, points: self.points.start..end };
+        *self = Self { cells: rest, shared: rest_shared, points: end..self.points.end };
+        taken
     }
 }
 

@@ -14,19 +14,24 @@ use crate::error::Result;
 use crate::scene::{self, ColliderKind, Contact, Scene, Sphere};
 
 mod axis;
+mod candidates;
 mod cell;
 mod cell_list;
+mod cell_number;
 mod contact;
 pub(crate) mod coulomb;
 mod cuboid;
 mod neighbors;
 mod pairs;
+mod partners;
 mod plane;
 mod same_cell;
 pub(crate) mod self_collision;
 mod separation;
 mod slots;
+mod sorted;
 mod sphere;
+mod surroundings;
 mod uniform_grid;
 
 /// An object that the cloth collides with, ready for the step.

@@ -24,9 +24,6 @@ use crate::scene::{Cloth, Sim, Vec3};
 /// Points of a part of a large cloth.
 const POINTS: usize = 2048;
 
-/// Just above 1: see [`Separation::new`].
-const MARGIN: f64 = 1.0 + 1e-12;
-
 /// Self-collision of a cloth within each cell.
 #[derive(Clone, Debug)]
 pub(crate) struct SameCell {
@@ -66,7 +63,7 @@ impl SameCell {
     pub(super) fn new(cloth: &Cloth, sim: &Sim, grid: Grid, x: &Points) -> Result<Self> {
         let bx = 3.0 * cloth.width / grid.width as f64;
         let by = 3.0 * cloth.height / grid.height as f64;
-        let rule = Separation::new(cloth, sim, MARGIN);
+        let rule = Separation::new(cloth, sim);
         // A small cloth is one part, with room for all that may happen, so that no step takes memory.
         let small = x.len() < chunks::MANY;
         let (parts, of_one) = if small { (1, x.len()) } else { (x.len() / POINTS, 0) };

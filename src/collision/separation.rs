@@ -8,25 +8,20 @@ use crate::scene::{Cloth, Sim, Vec3};
 pub(super) struct Separation {
     /// Distance that two points keep, in metres: 2 · thickness.
     pub(super) distance: f64,
-    /// A squared distance that no closer pair exceeds, in m².
-    pub(super) reach: f64,
     /// Steps per frame, which share one correction.
     steps_per_frame: f64,
 }
 
 impl Separation {
-    /// The rule for `cloth`. `margin`, just above 1, covers the rounding of a squared length, so that
-    /// no close pair lies beyond [`Separation::reach`].
-    pub(super) fn new(cloth: &Cloth, sim: &Sim, margin: f64) -> Self {
-        let distance = 2.0 * cloth.thickness;
-        let steps_per_frame = f64::from(sim.steps_per_frame);
-        Self { distance, reach: distance * distance * margin, steps_per_frame }
+    /// The rule for `cloth`.
+    pub(super) fn new(cloth: &Cloth, sim: &Sim) -> Self {
+        Self { distance: 2.0 * cloth.thickness, steps_per_frame: f64::from(sim.steps_per_frame) }
     }
 
     /// The rule of a distance, in metres, and so many steps a frame.
     #[cfg(test)]
     pub(super) fn of(distance: f64, steps_per_frame: f64) -> Self {
-        Self { distance, reach: distance * distance, steps_per_frame }
+        Self { distance, steps_per_frame }
     }
 
     /// Where a point at `position` goes after `pushes`; `None` without any.

@@ -28,8 +28,8 @@ pub(super) struct UniformGrid {
     axes: [Axis; 3],
     /// What tells cells apart instead of their three numbers.
     hash: Option<fn([i64; 3]) -> i64>,
-    /// Whether a point ever lay in a cell with a large number.
-    far: bool,
+    /// The largest number, but for its sign, of a cell in which a point ever lay.
+    largest: u64,
     /// The cell of every point.
     keys: Vec<CellKey>,
     /// The points by cell.
@@ -56,7 +56,7 @@ impl UniformGrid {
         let mut grid = Self {
             axes: [Axis::new(sx, points)?, Axis::new(sy, points)?, Axis::new(sz, points)?],
             hash: None,
-            far: false,
+            largest: 0,
             keys: filled(points, CellKey::default())?,
             list: CellList::new(points)?,
             next: CellList::new(points)?,
@@ -107,7 +107,17 @@ impl UniformGrid {
     /// Whether the points of each cell are surely no further apart than a cell is long, but for rounding: no two cells
     /// were made one, and none had so large a number that a coordinate in it has hardly a fraction.
     pub(super) fn is_near(&self) -> bool {
-        self.hash.is_none() && !self.far
+        self.hash.is_none() && self.largest < FAR
+    }
+
+    /// The largest number, but for its sign, of a cell in which a point ever lay.
+    pub(super) fn largest(&self) -> u64 {
+        self.largest
+    }
+
+    /// The cells with a point in order, each with the end of its points in [`UniformGrid::order`].
+    pub(super) fn cells(&self) -> &[(CellKey, usize)] {
+        &self.list.cells
     }
 
     /// Puts every point into its cell after the points moved to `x`.
@@ -150,7 +160,7 @@ impl UniformGrid {
     fn set_cell(&mut self, p: usize, x: &Points) {
         let [ax, ay, az] = &mut self.axes;
         let (i, j, k) = (ax.cell_of(p, x.x[p]), ay.cell_of(p, x.y[p]), az.cell_of(p, x.z[p]));
-        self.far |= [i, j, k].iter().any(|n| n.unsigned_abs() >= FAR);
+        self.largest = [i, j, k].iter().fold(self.largest, |most, n| most.max(n.unsigned_abs()));
         self.keys[p] = self.hash.map_or((i, j, k), |hash| (hash([i, j, k]), 0, 0));
     }
 
