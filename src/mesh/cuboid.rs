@@ -20,7 +20,8 @@ impl Mesh {
             let second = normal.cross(&first);
             let up = upwards(&normal);
             let right = up.cross(&normal);
-            let uv = |corner: Vec3| [1.0 + corner.dot(&right), 1.0 - corner.dot(&up)].map(|c| to_f32(c / 2.0));
+            let uv =
+                |corner: Vec3| [1.0 + corner.dot(&right), 1.0 - corner.dot(&up)].map(|c| to_f32(c / 2.0));
             for (s, t) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
                 let corner = normal + first * s + second * t;
                 mesh.positions.push(round(cuboid.origin + corner.component_mul(&half)));
