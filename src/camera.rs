@@ -103,22 +103,32 @@ const LEAST_NEAR: f64 = 1.0 / 16_384.0;
 const FAR_AWAY: f64 = 256.0;
 
 /// The point that is drawn as the origin. It is the origin itself, unless the camera's target has a coordinate of
-/// more than 256 times the camera's distance: there the rounding of world coordinates to 32 bits would show (at 1024 x
+/// more than 256 times the camera's distance (of a camera that fits, of the size of what it shows): there the rounding of world coordinates to 32 bits would show (at 1024 x
 /// 800 pixels from 1/40 of a pixel on), so the target is subtracted first, in 64 bits.
 ///
 /// # Errors
 /// A cloth that does not fit in memory.
 pub fn origin(scene: &Scene) -> Result<Vec3> {
-    let (target, distance) = match scene.colliders.first() {
-        // A camera that fits goes where things are.
-        Some(Collider::Sphere(sphere)) if scene.camera.fit && scene.cloth.is_none() => {
-            (sphere.origin, sphere.radius)
-        }
-        Some(Collider::Plane(plane)) if scene.camera.fit && scene.cloth.is_none() => (plane.point, 1.0),
+    let (target, distance) = match framed(scene)? {
+        Some(framed) if scene.camera.fit => framed,
         _ => (target(scene)?, scene.camera_distance()),
     };
     let away = target.iter().map(|c| c.abs()).fold(0.0, f64::max);
     Ok(if away > FAR_AWAY * distance { target } else { Vec3::zeros() })
+}
+
+/// Where a camera that fits goes, and how large what is there is: the cloth at its start, else a ball or a box, else a
+/// plane.
+fn framed(scene: &Scene) -> Result<Option<(Vec3, f64)>> {
+    if let Some(cloth) = &scene.cloth {
+        return Ok(Some((start_mean(cloth)?, cloth.width.max(cloth.height))));
+    }
+    let bounded = scene.colliders.iter().find(|collider| !matches!(collider, Collider::Plane(_)));
+    Ok(bounded.or(scene.colliders.first()).map(|collider| match collider {
+        Collider::Sphere(sphere) => (sphere.origin, sphere.radius),
+        Collider::Cuboid(cuboid) => (cuboid.origin, cuboid.size.max()),
+        Collider::Plane(plane) => (plane.point, 1.0),
+    }))
 }
 
 /// The target that is given, or that of the report.
@@ -202,11 +212,16 @@ fn tan_half_vfov(settings: &Settings, aspect: f64) -> f64 {
     half(settings.vfov).max(half(settings.hfov) / aspect)
 }
 
-/// The mean of the starting points, at half its height.
-fn default_target(cloth: &Cloth) -> Result<Vec3> {
+/// The mean of the starting points.
+fn start_mean(cloth: &Cloth) -> Result<Vec3> {
     let grid = Grid::new(cloth)?;
     let sum = (0..grid.len()).fold(Vec3::zeros(), |sum, point| sum + start_of(cloth, grid, point));
-    let mean = sum / grid.len() as f64;
+    Ok(sum / grid.len() as f64)
+}
+
+/// The mean of the starting points, at half its height.
+fn default_target(cloth: &Cloth) -> Result<Vec3> {
+    let mean = start_mean(cloth)?;
     Ok(Vec3::new(mean.x, mean.y / 2.0, mean.z))
 }
 

@@ -63,6 +63,7 @@ pub mod error;
 pub mod fence;
 pub mod bounded;
 pub mod container;
+pub mod exif;
 pub mod math;
 mod share;
 pub mod lanes;

@@ -3,11 +3,11 @@
 use std::io::Cursor;
 use std::sync::OnceLock;
 
-use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use crate::container::{jpeg_end, png_chunks, png_end};
+use crate::container::{jpeg_end, png_end};
 use crate::error::{Error, Kind, Result};
+use crate::exif::orientation;
 use crate::fence::fenced;
 use crate::lanes::Texels;
 
@@ -196,14 +196,13 @@ fn picture(name: &str, bytes: &[u8]) -> Result<DynamicImage> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_DECODER_BYTES);
     reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
+    let decoder = reader.into_decoder().map_err(|error| invalid(&error))?;
     let (width, height) = decoder.dimensions();
     if width.max(height) > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_TEXELS {
         return Err(invalid(&format_args!("{width} x {height} is too large")));
     }
-    let orientation = orientation(&mut decoder, bytes).map_err(|error| invalid(&error))?;
     let mut image = DynamicImage::from_decoder(decoder).map_err(|error| invalid(&error))?;
-    image.apply_orientation(orientation);
+    image.apply_orientation(orientation(bytes));
     Ok(image)
 }
 
@@ -211,16 +210,4 @@ fn picture(name: &str, bytes: &[u8]) -> Result<DynamicImage> {
 fn invalid(name: &str, why: &dyn std::fmt::Display) -> Error {
     Error::new(Kind::Scene, format!("texture {name} cannot be decoded: {why}"))
         .with_help(format!("a texture is a PNG or JPEG of at most {MAX_SIDE} a side and {MAX_TEXELS} texels"))
-}
-
-/// How a picture is to be turned and mirrored before it is shown, by the Exif data of `bytes`, which `decoder`
-/// decodes. In a PNG they may stand after the pixels (chunk `eXIf`), where the decoder does not look.
-///
-/// # Errors
-/// Those of the decoder.
-pub fn orientation(decoder: &mut impl ImageDecoder, bytes: &[u8]) -> image::ImageResult<Orientation> {
-    let found = decoder.orientation()?;
-    let exif = || png_chunks(bytes).find(|(kind, _)| kind == b"eXIf");
-    let late = || Orientation::from_exif_chunk(exif()?.1);
-    Ok(if found == Orientation::NoTransforms { late().unwrap_or(found) } else { found })
 }

@@ -9,7 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::texture::{Texture, check_all_texels};
 
 /// Endings that are tried in a folder, in this order.
-pub const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
+const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
 
 /// Largest texture file, bytes.
 const MAX_FILE_BYTES: u64 = 1 << 29;
@@ -48,6 +48,13 @@ pub enum TextureSource {
 }
 
 impl TextureSource {
+    /// Every file that may be read for the textures `names`; none where they come from no folder.
+    pub fn files<'a>(&self, names: impl Iterator<Item = &'a String>) -> Vec<PathBuf> {
+        let Self::Folder(folder) = self else { return Vec::new() };
+        let paths = names.flat_map(|name| ENDINGS.map(|ending| folder.join(format!("{name}.{ending}"))));
+        paths.filter(|path| path.is_file()).collect()
+    }
+
     /// The texture called `name`.
     ///
     /// # Errors

@@ -101,6 +101,13 @@ fn set_grid_triangles(
     });
 }
 
+/// The direction in a plane of unit normal `n` that is up in its picture, unit.
+fn upwards(n: &Vec3) -> Vec3 {
+    let flat = n.y * n.y >= 0.5;
+    let up = if flat { Vec3::new(0.0, 0.0, -n.y.signum()) } else { Vec3::new(0.0, 1.0, 0.0) };
+    unit(up - n * up.dot(n))
+}
+
 /// The report's first direction inside a plane of unit normal n: unit, unless n is (1,1,1)/√3,
 /// where its formula gives zero and +x made orthogonal stands in.
 fn in_plane(n: &Vec3) -> Vec3 {

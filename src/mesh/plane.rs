@@ -4,7 +4,7 @@
 //! the side of the normal, words on it are readable, and upright for a camera of azimuth 0: up is -z on a floor, +z
 //! on a ceiling, and +y on a wall (any plane steeper than 45 degrees).
 
-use super::{Mesh, in_plane, round, to_f32, unit};
+use super::{Mesh, in_plane, round, to_f32, unit, upwards};
 use crate::scene::{Needs, Plane, Vec3};
 
 /// Length of the sides, in metres.
@@ -12,13 +12,6 @@ const SIDE: f64 = 4.0;
 
 /// Length of the sides of the picture.
 const PICTURE: f64 = SIDE * std::f64::consts::SQRT_2;
-
-/// The direction in a plane of unit normal `n` that is up in its picture, unit.
-fn upwards(n: &Vec3) -> Vec3 {
-    let flat = n.y * n.y >= 0.5;
-    let up = if flat { Vec3::new(0.0, 0.0, -n.y.signum()) } else { Vec3::new(0.0, 1.0, 0.0) };
-    unit(up - n * up.dot(n))
-}
 
 impl Mesh {
     /// The 4 m × 4 m square of a plane, a strip of two triangles around its point.

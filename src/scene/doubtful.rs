@@ -74,23 +74,41 @@ impl Doubts<'_> {
             }
         }
         let owners = without_effect::owners(scene);
-        if owners.is_empty() {
-            return;
-        }
-        for key in without_effect::material_keys() {
-            let read = |material: &Material| without_effect::reads(material.shader, key);
-            let unread = owners.iter().filter(|(_, material)| !read(material));
-            let mut paths: Vec<String> =
-                unread.flat_map(|(paths, _)| paths).map(|path| format!("{path}.{key}")).collect();
-            if !owners.iter().any(|(_, material)| read(material)) {
-                paths.insert(0, format!("material.{key}"));
-            }
-            for path in paths {
-                if let Some(place) = self.span(&path) {
-                    self.ineffective(Some(place), &path, &without_effect::readers(key));
+        for key in std::iter::once("shader").chain(without_effect::material_keys()) {
+            self.shared(key, &owners);
+            for (paths, material) in &owners {
+                let unread = paths.iter().filter(|_| !without_effect::reads(material.shader, key));
+                for path in unread.map(|path| format!("{path}.{key}")) {
+                    if let Some(place) = self.span(&path) {
+                        self.ineffective(Some(place), &path, &without_effect::readers(key));
+                    }
                 }
             }
         }
+    }
+
+    /// Warns of a key of the scene's material that no object takes from there.
+    fn shared(&mut self, key: &str, owners: &[(Vec<String>, &Material)]) {
+        let path = format!("material.{key}");
+        let Some(place) = self.span(&path) else { return };
+        let mut readers =
+            owners.iter().filter(|(_, material)| without_effect::reads(material.shader, key)).peekable();
+        let why = if owners.is_empty() {
+            "the scene has no object".to_owned()
+        } else if readers.peek().is_none() {
+            without_effect::readers(key)
+        } else if readers.all(|(paths, _)| paths.iter().any(|path| self.has_own(&format!("{path}.{key}")))) {
+            "each object that it is for has its own".to_owned()
+        } else {
+            return;
+        };
+        self.ineffective(Some(place), &path, &why);
+    }
+
+    /// Whether an object has a key of its own; what an option gives to every object is meant to replace the rest.
+    fn has_own(&self, path: &str) -> bool {
+        let source = self.span(path).and_then(|span| self.diagnostics.sources.get(span.source));
+        source.is_some_and(|source| !source.name.starts_with("--shader"))
     }
 
     fn ineffective(&mut self, place: Option<Span>, path: &str, needs: &str) {

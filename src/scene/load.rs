@@ -194,6 +194,14 @@ fn read_scene(diagnostics: &mut Diagnostics, document: &Node) -> Option<Scene> {
     Some(scene)
 }
 
+/// The text of the scene file `path` as it is; `-` is standard input. What is not UTF-8 is replaced.
+///
+/// # Errors
+/// [`Kind::Io`] if the file cannot be read.
+pub fn read_text(path: &Path) -> Result<String> {
+    Ok(String::from_utf8_lossy(&read(path)?).into_owned())
+}
+
 /// The bytes of a file, at most one more than allowed.
 fn read(path: &Path) -> Result<Vec<u8>> {
     if path == Path::new(STDIN) {
@@ -248,7 +256,10 @@ pub(super) fn file(diagnostics: &mut Diagnostics, name: &str, bytes: &[u8]) -> O
     let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let wrong = if let Err(error) = std::str::from_utf8(bytes) {
         let start = error.valid_up_to();
-        Some((start..start + char::REPLACEMENT_CHARACTER.len_utf8(), "not valid UTF-8"))
+        // As PowerShell redirects and some editors save.
+        let wide = [[0xFF, 0xFE], [0xFE, 0xFF]].iter().any(|mark| bytes.starts_with(mark));
+        let message = if wide { "the file is UTF-16: save it as UTF-8" } else { "not valid UTF-8" };
+        Some((start..start + char::REPLACEMENT_CHARACTER.len_utf8(), message))
     } else if text[mark..].trim_ascii().is_empty() {
         Some((0..0, "the file is empty"))
     } else {

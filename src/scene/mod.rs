@@ -21,6 +21,7 @@ mod needs;
 mod set;
 mod plan;
 mod render;
+mod seen;
 mod shader;
 mod sim;
 mod stock;
@@ -40,11 +41,14 @@ pub use document::{Difference, differences};
 pub use json::key::{Key, Shape};
 pub use keys::{keys, schema};
 pub use light::Light;
-pub use load::{Flag, Loaded, MAX_FILE, Overrides, check_value, load, load_stock, load_text, stock_name};
+pub use load::{
+    Flag, Loaded, MAX_FILE, Overrides, check_value, load, load_stock, load_text, read_text, stock_name,
+};
 pub use material::{Bitangent, Material};
 pub use needs::Needs;
 pub use plan::{Images, Item, plan};
 pub use render::{Filter, Render};
+pub use seen::{SEEN, lies_in};
 pub use shader::Shader;
 pub use sim::{Contact, Damping, Integrator, Precision, SelfCollision, Sim, Start};
 pub use validate::{MAX_OBJECTS, MAX_SAMPLES};

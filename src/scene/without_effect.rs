@@ -1,7 +1,10 @@
 //! Keys that are given and change nothing: one table, from which the warnings come.
 
 use super::render::Filter;
-use super::{Collider, Integrator, Material, Needs, Scene, Shader};
+use super::{
+    Camera, Collider, Contact, Damping, Integrator, Material, Needs, Scene, SelfCollision, Shader, Sim,
+};
+use crate::math;
 
 /// A key that has an effect only with others.
 pub(super) struct Key {
@@ -28,6 +31,33 @@ pub(super) const KEYS: &[Key] = &[
         is_default: |_| false,
         acts: |scene| matches!(scene.sim.integrator, Integrator::ImplicitEuler | Integrator::Bdf2),
         needs: "only the integrators `implicit_euler` and `bdf2` read it",
+    },
+    Key {
+        path: "sim",
+        is_default: |scene| scene.sim == Sim { fps: scene.sim.fps, ..Sim::default() },
+        acts: |scene| scene.cloth.is_some(),
+        needs: "the scene has no cloth, so nothing moves",
+    },
+    Key {
+        path: "sim.contact",
+        is_default: |scene| scene.sim.contact == Contact::Report,
+        acts: |scene| scene.cloth.is_none() || !scene.colliders.is_empty(),
+        needs: "the scene has no object that the cloth could touch",
+    },
+    Key {
+        path: "sim.self_collision",
+        is_default: |scene| scene.sim.self_collision == SelfCollision::SameBox,
+        acts: |scene| {
+            let apart = scene.cloth.as_ref().is_none_or(|cloth| cloth.thickness > 0.0);
+            apart || scene.sim.self_collision == SelfCollision::Off
+        },
+        needs: "`cloth.thickness` is 0, which turns self-collision off",
+    },
+    Key {
+        path: "sim.damping",
+        is_default: |scene| scene.sim.damping == Damping::PerStep,
+        acts: |scene| scene.cloth.as_ref().is_none_or(|cloth| cloth.damping > 0.0),
+        needs: "`cloth.damping` is 0",
     },
     Key {
         path: "sim.stretch_passes",
@@ -77,6 +107,24 @@ pub(super) const KEYS: &[Key] = &[
         needs: "only the shader `custom` reads it; `light.intensity` has a number for each channel",
     },
     Key {
+        path: "camera.hfov",
+        is_default: |scene| scene.camera.hfov == Camera::default().hfov,
+        acts: |scene| {
+            let [by_width, by_height] = half_heights(scene);
+            by_width >= by_height
+        },
+        needs: "`camera.vfov` shows more in a picture of this shape, and the wider view is drawn",
+    },
+    Key {
+        path: "camera.vfov",
+        is_default: |scene| scene.camera.vfov == Camera::default().vfov,
+        acts: |scene| {
+            let [by_width, by_height] = half_heights(scene);
+            by_height >= by_width
+        },
+        needs: "`camera.hfov` shows more in a picture of this shape, and the wider view is drawn",
+    },
+    Key {
         path: "camera.target",
         is_default: |scene| scene.camera.target.is_none(),
         acts: |scene| !scene.camera.fit,
@@ -115,9 +163,9 @@ pub(super) fn material_keys() -> impl Iterator<Item = &'static str> {
     MATERIAL.iter().map(|(key, _)| *key)
 }
 
-/// Whether `shader` reads a key of its material.
+/// Whether `shader` reads a key of its material; every object has a shader.
 pub(super) fn reads(shader: Shader, key: &str) -> bool {
-    MATERIAL.iter().any(|(of, shaders)| *of == key && shaders.contains(&shader))
+    key == "shader" || MATERIAL.iter().any(|(of, shaders)| *of == key && shaders.contains(&shader))
 }
 
 /// The shaders that read a key, for a message.
@@ -132,6 +180,13 @@ pub(super) fn readers(key: &str) -> String {
         [name] => format!("only the shader {name} reads it"),
         names => format!("only the shaders {} read it", super::json::text::enumerated(names, "and")),
     }
+}
+
+/// Half of the height that is seen at a distance of 1 m, by either field of view.
+fn half_heights(scene: &Scene) -> [f64; 2] {
+    let half = |degrees: f64| math::tan(degrees * (std::f64::consts::PI / 360.0));
+    let [width, height] = scene.render.size.map(f64::from);
+    [half(scene.camera.hfov) / (width / height), half(scene.camera.vfov)]
 }
 
 /// Whether one of the objects has a shader for which `holds`.

@@ -62,7 +62,7 @@ fn check_foresees_what_would_stop_a_later_command_and_does_not_fail() {
             &["scene::without_effect", "check::texture"],
             "built in: cube",
         ),
-        (&["--textures", "set"], &[], "valid"),
+        (&["--textures", "set"], &["check::without_effect"], "--textures has no effect"),
         (&["--set", "material.shader=texture"], &[], "valid"),
         (&[&stiff[..], &["--set", "sim.integrator=xpbd"]].concat(), &[], "valid"),
         (&stiff, &["check::unstable"], "dt·ω"),

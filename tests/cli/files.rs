@@ -121,3 +121,27 @@ fn two_percent_signs_in_the_name_of_an_output_are_one() {
     scratch.succeed(&["export", "small.json", "9%%d-%d.obj", "--frames", "0..2"]);
     assert_eq!(scratch.names(), ["9%d-0.obj", "9%d-1.obj", "9%d.npy", "small.json"]);
 }
+
+/// A texture beside the mesh is written anew, without its transparency and as it is turned.
+#[test]
+fn a_texture_of_the_user_is_not_overwritten_by_its_copy() {
+    let scratch = Scratch::new();
+    fs::create_dir(scratch.path("art")).unwrap();
+    let picture = image::RgbaImage::from_pixel(4, 4, image::Rgba([200, 100, 50, 90]));
+    picture.save(scratch.path("art/mine.png")).unwrap();
+    let before = scratch.read("art/mine.png");
+    let options = ["--frame", "0", "--materials", "--textures", "art", "--set", "material.texture=mine"];
+    let shaded = |out: &str, shader: &str| {
+        let shader = format!("material.shader={shader}");
+        scratch.run(&[&["export", "small.json", out], &options[..], &["--set", &shader]].concat())
+    };
+    let refused = shaded("art/cloth.obj", "texture");
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("art/mine.png") && refused.stderr.contains("also an input"));
+    // One that is missing is told before anything is written.
+    assert_eq!(shaded("cloth.obj", "bump").code, Some(3), "there is no texture_2 in the folder");
+    assert_eq!((scratch.tree("art").len(), scratch.names()), (1, vec!["art".into(), "small.json".into()]));
+    assert_eq!(shaded("cloth.obj", "texture").code, Some(0));
+    assert_eq!(scratch.names(), ["art", "cloth.mtl", "cloth.obj", "mine.png", "small.json"]);
+    assert_eq!(scratch.read("art/mine.png"), before);
+}

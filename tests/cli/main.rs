@@ -52,5 +52,6 @@ mod sweep_spec;
 mod textbook_cloth;
 mod texts;
 mod threads;
+mod unread;
 mod verify;
 mod without_effect;

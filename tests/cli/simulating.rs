@@ -158,6 +158,28 @@ fn info_counts_what_a_simulation_then_uses() {
     assert!(text.contains("5 x 5 = 25 points, pinned 2") && text.contains("left out  "), "{text}");
 }
 
+/// Both cures are named only where they help: a side that faces away from the light stays dark when it is lit from both.
+#[test]
+fn info_says_when_most_of_what_is_seen_is_unlit() {
+    let scratch = Scratch::new();
+    let hint = |name: &str, sets: &[&str]| {
+        let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+        let text = scratch.succeed(&[&["info", &scene(name)], &sets[..]].concat());
+        let text = String::from_utf8(text).unwrap();
+        text.lines().find(|line| line.starts_with("hint")).map(str::to_owned)
+    };
+    let stock = hint("selfCollision.json", &[]).expect("the cloth shows its unlit side");
+    assert!(stock.contains("material.two_sided=true") && stock.contains("move light.position"), "{stock}");
+    assert_eq!(hint("selfCollision.json", &["material.two_sided=true"]), None);
+    assert_eq!(hint("sphere.json", &[]), None);
+    let below = ["light.position=[0.5,3,0.5]", "camera.polar=179"];
+    let seen_below = hint("sphere.json", &[&below[..], &["material.two_sided=true"]].concat()).unwrap();
+    let lit_behind = hint("sphere.json", &["cloth=null", "light.position=[0.5,0.5,-5]"]).unwrap();
+    for hint in [seen_below, lit_behind] {
+        assert!(!hint.contains("two_sided") && hint.ends_with(": move light.position"), "{hint}");
+    }
+}
+
 #[test]
 fn a_table_has_a_row_a_frame_whose_entries_sum_to_the_change_of_energy() {
     let scratch = Scratch::new();

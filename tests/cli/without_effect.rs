@@ -138,5 +138,15 @@ fn transparent_textures_are_noted() {
         let said =
             said(&scratch, &["--shader", "texture", "--textures", "t", "--set", "material.texture=glass"]);
         assert_eq!(said.contains("glass has transparent pixels"), noted, "{said}");
+        for out in ["glass.glb", "glass.obj"] {
+            let run = scratch.run(
+                &[
+                    &["export", "small.json", out, "--frame", "0", "--textures", "t", "--materials"],
+                    &["--set", "material.shader=texture", "--set", "material.texture=glass"][..],
+                ]
+                .concat(),
+            );
+            assert_eq!(run.stderr.contains("glass has transparent pixels"), noted, "{out}: {}", run.stderr);
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use image::codecs::gif::GifDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
-use image::metadata::LoopCount;
+use image::metadata::{LoopCount, Orientation};
 use image::{
     AnimationDecoder, ColorType, Delay, DynamicImage, Frame, Frames, ImageDecoder, ImageFormat, Limits,
 };
@@ -14,9 +14,10 @@ use image::{
 use drape::bounded;
 use drape::container::{gif_end, has_cover, jpeg_end, png_end};
 use drape::error::{Error, Kind, Result};
+use drape::exif::orientation;
 use drape::fence::fenced;
 use drape::output::png::{Pixels, refusal};
-use drape::texture::{MAX_SIDE, orientation};
+use drape::texture::MAX_SIDE;
 
 /// Endings of the names of files with pictures, in lower case.
 pub(crate) const ENDINGS: [&str; 5] = ["png", "apng", "gif", "jpg", "jpeg"];
@@ -105,7 +106,7 @@ fn png(bytes: Vec<u8>) -> Opened {
         return Err("it has 16 bits a channel; only 8 are compared".to_owned());
     }
     if !decoder.is_apng().map_err(|e| refusal(&e))? {
-        return still(decoder, &kept);
+        return still(decoder, orientation(&kept));
     }
     let decoder = decoder.apng().map_err(|e| refusal(&e))?;
     let cover = if has_cover(&kept) { Some(cover(kept)?) } else { None };
@@ -135,14 +136,14 @@ fn jpeg(bytes: Vec<u8>) -> Opened {
     if jpeg_end(&bytes) != Some(bytes.len()) {
         return Err("the JPEG is cut short, or has more behind its end".to_owned());
     }
+    let orientation = orientation(&bytes);
     let mut decoder = JpegDecoder::new(Cursor::new(bytes)).map_err(|e| refusal(&e))?;
     decoder.set_limits(limits()).map_err(|e| refusal(&e))?;
-    still(decoder, &[])
+    still(decoder, orientation)
 }
 
 /// The picture as it is shown: turned as its Exif data say.
-fn still(mut decoder: impl ImageDecoder, bytes: &[u8]) -> Opened {
-    let orientation = orientation(&mut decoder, bytes).map_err(|e| refusal(&e))?;
+fn still(decoder: impl ImageDecoder, orientation: Orientation) -> Opened {
     let mut decoded = DynamicImage::from_decoder(decoder).map_err(|e| refusal(&e))?;
     decoded.apply_orientation(orientation);
     Ok((0, Pictures::Still(Some(pixels(decoded)))))

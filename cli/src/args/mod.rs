@@ -1,5 +1,6 @@
 //! Arguments that several commands share.
 
+pub(crate) mod address;
 pub(crate) mod flag;
 pub(crate) mod frames;
 pub(crate) mod limit;
@@ -9,3 +10,5 @@ pub(crate) mod provenance;
 pub(crate) mod render;
 pub(crate) mod scene;
 pub(crate) mod state;
+pub(crate) mod textures;
+pub(crate) mod unread;

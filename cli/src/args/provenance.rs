@@ -33,6 +33,13 @@ impl ProvenanceArgs {
         self.provenance.unwrap_or(Detail::Scene).of(loaded, arguments)
     }
 
+    /// Warns that the option has no effect, if it is given where no file is written.
+    pub(crate) fn caution_of_no_file(&self, ui: &Ui) {
+        if self.provenance.is_some() {
+            ui.caution("--provenance has no effect: no file is written that it could stand in", "");
+        }
+    }
+
     /// Warns that the option has no effect, if it is given and `path` has no place for what a file says.
     pub(crate) fn caution(&self, path: &Path, has_place: bool, ui: &Ui) {
         if self.provenance.is_some() && !has_place {

@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 
 use super::flag::{flag, help, size, whole};
 use super::provenance::ProvenanceArgs;
+use super::textures;
 use crate::session::ui::Ui;
 use drape::cubemap::FACES;
 use drape::math::StateHash;
@@ -13,7 +14,7 @@ use drape::mesh::SpringKinds;
 use drape::output::provenance::{Arguments, Provenance, hex};
 use drape::render::{Options, Renderer};
 use drape::scene::{ColliderKind, Flag, Images, Loaded, Scene, Shader};
-use drape::texture_source::{ENDINGS, TextureSource};
+use drape::texture_source::TextureSource;
 
 /// Changes to how a scene is drawn.
 #[derive(clap::Args)]
@@ -78,17 +79,12 @@ impl RenderArgs {
         let images = Images::of(scene);
         let faces = images.environments.iter().flat_map(|cube| FACES.map(|face| format!("{cube}/{face}")));
         let names: Vec<String> = images.textures.iter().cloned().chain(faces).collect();
-        let file = |folder: &PathBuf, name: &str, ending| folder.join(format!("{name}.{ending}"));
-        let folders = self.textures.iter();
-        let files = folders.flat_map(|folder| {
-            names.iter().flat_map(move |name| ENDINGS.map(|ending| file(folder, name, ending)))
-        });
-        files.filter(|path| path.is_file()).collect()
+        self.textures().files(names.iter())
     }
 
     /// Warns of options that change nothing in `scene`, and of textures whose transparency is not drawn.
     pub(crate) fn caution(&self, scene: &Scene, renderer: &Renderer, ui: &Ui) {
-        let images = Images::of(scene);
+        textures::caution(self.textures.as_deref(), scene, ui);
         let lines = scene.cloth.as_ref().is_some_and(|cloth| cloth.material.shader == Shader::Wireframe);
         let no_spheres = scene.spheres().next().is_none();
         for (given, acts, option, needs) in [
@@ -101,12 +97,6 @@ impl RenderArgs {
             (self.latitudes.is_some(), !no_spheres, "-a", "the scene has no sphere"),
             (self.longitudes.is_some(), !no_spheres, "-o", "the scene has no sphere"),
             (
-                self.textures.is_some(),
-                !images.textures.is_empty() || !images.environments.is_empty(),
-                "--textures",
-                "no shader of the scene reads a picture",
-            ),
-            (
                 self.shader.is_some(),
                 scene.materials().next().is_some(),
                 "--shader",
@@ -118,8 +108,7 @@ impl RenderArgs {
             }
         }
         for name in renderer.transparent_textures() {
-            let message = format!("the texture {name} has transparent pixels, which are drawn opaque");
-            ui.caution(&message, "transparency is not drawn: paint the picture on a background of its own");
+            textures::caution_of_transparency(name, ui);
         }
     }
 
@@ -148,10 +137,9 @@ fn shader() -> PossibleValuesParser {
 
 /// The hash of the textures that are drawn, if there are any.
 pub(crate) fn texture_hash(scene: &Scene, renderer: &Renderer) -> Option<String> {
-    let Images { textures, environments } = Images::of(scene);
     let mut hash = StateHash::default();
     renderer.hash_textures(&mut hash);
-    (!textures.is_empty() || !environments.is_empty()).then(|| hex(hash.finish()))
+    textures::are_read(scene).then(|| hex(hash.finish()))
 }
 
 /// The kinds as [`springs`] reads them.

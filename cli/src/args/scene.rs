@@ -6,7 +6,7 @@ use super::flag::seconds;
 use super::frames::frame;
 use crate::run::advance::Until;
 use crate::session::Session;
-use drape::bounded;
+use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 use drape::scene::{self, Flag, Loaded, Overrides, Scene};
 use drape_lab::page::live::Live;
@@ -72,12 +72,21 @@ impl SceneArgs {
             return Err(Error::new(Kind::Usage, "a link to the live page cannot hold a --patch")
                 .with_help("put the changes into the scene file, or use --set"));
         }
-        let failed = |e| Error::new(Kind::Io, format!("cannot read {}: {e}", self.path.display()));
-        let text = bounded::read_text(&self.path, scene::MAX_FILE).map_err(failed)?;
+        let text = scene::read_text(&self.path)?;
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         let sets = self.changes.sets.iter().map(|set| ("set", set.as_str()));
         let scene = [("scene", name.as_ref()), ("text", text.as_str())];
         Ok(Live::at(url).with(scene.into_iter().chain(sets)))
+    }
+
+    /// The arguments of `--set`.
+    pub(super) fn sets(&self) -> &[String] {
+        &self.changes.sets
+    }
+
+    /// Whether the scene is changed by options.
+    pub(crate) fn is_changed(&self) -> bool {
+        !self.changes.sets.is_empty() || !self.changes.patches.is_empty()
     }
 
     /// Every file that [`SceneArgs::load`] reads.
@@ -128,6 +137,16 @@ pub(crate) struct StabilityArgs {
 }
 
 impl Moment {
+    /// Warns of a moment in the scene that the options replace.
+    pub(crate) fn caution(&self, scene: &SceneArgs, ui: &Ui) {
+        let options = [
+            ("--time", self.time.is_some()),
+            ("--frame", self.frame.is_some()),
+            ("--until-rest", self.until_rest),
+        ];
+        scene.caution_of_moment(&options, ui);
+    }
+
     /// The last frame, and whether the cloth must come to rest by then.
     pub(crate) fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));

@@ -72,6 +72,8 @@ struct Summary {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let loaded = args.scene.load_with_flags(&args.render.flags(), session)?;
     let scene = &loaded.scene;
+    let moments = [("--time", args.time.is_some()), ("--frames", args.frames.is_some())];
+    args.scene.caution_of_moment(&moments, &session.ui);
     let target = Target::parse(&args.out)?;
     let [width, height] = scene.render.size;
     let background = background(scene);

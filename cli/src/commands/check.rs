@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::args::scene::Changes;
+use crate::args::textures;
 use crate::session::Session;
 use crate::session::ui::{help_lines, paint};
 use drape::diagnostics::advice::unstable_at_rest;
@@ -52,11 +53,11 @@ struct Findings {
 
 /// Prints the findings; the worst of them decides the exit code.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    let textures = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
+    let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let mut files = Vec::new();
     for path in &args.paths {
         session.stop.check()?;
-        files.push(check(path, &args.changes, &textures));
+        files.push(check(path, &args.changes, &source));
     }
     let colored = session.ui.color.applies(std::io::stdout().is_terminal());
     let text = files.iter().map(|file| file.text(colored)).collect::<String>();
@@ -115,14 +116,18 @@ fn of_picture(scene: &Scene, textures: &TextureSource) -> Vec<(&'static str, Err
 }
 
 /// What would stop a later command or make its result wrong, although the scene is valid: a texture that another
-/// shader would read, a geometry that cannot hold, or a step that is unstable.
-fn foreseen(file: &str, scene: &Scene, textures: &TextureSource) -> Vec<Diagnostic> {
+/// shader would read, a folder of textures that no shader does, a geometry that cannot hold, or a step that is unstable.
+fn foreseen(file: &str, scene: &Scene, source: &TextureSource) -> Vec<Diagnostic> {
     let [images, cubes] = unread_names(scene);
-    let unread = unreadable([&images, &cubes], textures);
+    let unread = unreadable([&images, &cubes], source);
     let mut warnings: Vec<_> = unread.iter().map(|error| warning(file, "check::texture", error)).collect();
     match concerns(scene) {
         Ok(concerns) => warnings.extend(concerns.into_iter().map(|concern| of_geometry(file, concern))),
         Err(error) => warnings.push(warning(file, "check::geometry", &error)),
+    }
+    let reads_none = !textures::are_read(scene) && images.is_empty() && cubes.is_empty();
+    if reads_none && matches!(source, TextureSource::Folder(_)) {
+        warnings.push(warning(file, "check::without_effect", &Error::new(Kind::Usage, textures::UNREAD)));
     }
     warnings.extend(instability(scene).map(|error| warning(file, "check::unstable", &error)));
     warnings

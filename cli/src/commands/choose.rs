@@ -10,8 +10,10 @@ use crate::args::scene::{SceneArgs, frame_at};
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
+use crate::session::ui::Ui;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
+use drape::scene::SEEN;
 use drape_lab::accuracy::measure::Measure;
 use drape_lab::accuracy::source::Source;
 use drape_lab::choose::goal::Tolerance;
@@ -44,12 +46,26 @@ pub(crate) struct Args {
     patch_out: Option<PathBuf>,
 }
 
+/// Keys that change a picture, but no distance in it.
+const UNMEASURED: [&str; 9] = [
+    "light",
+    "material",
+    "cloth.material",
+    "sphere.material",
+    "box.material",
+    "plane.material",
+    "sphere.resolution",
+    "render.samples",
+    "render.background",
+];
+
 /// Searches, prints what was found and writes the patch.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     let patch = args.patch_out.iter().map(|path| (path.as_path(), Content::Text));
     outputs::check(&args.scene.inputs(), patch)?;
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
+    args.caution(&session.ui);
     let frames = args.frame.unwrap_or_else(|| frame_at(args.time, &scene));
     let watch = || session.stop.check();
     let answer = match (args.within, args.budget) {
@@ -66,6 +82,24 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    /// Warns of options that change nothing.
+    fn caution(&self, ui: &Ui) {
+        self.scene
+            .caution_of_moment(&[("--time", self.time.is_some()), ("--frame", self.frame.is_some())], ui);
+        if !self.in_pixels() {
+            return self.scene.caution(&SEEN, "no length depends on how the scene is drawn", ui);
+        }
+        self.scene.caution(&UNMEASURED, "distances in the picture do not depend on it", ui);
+        if self.max {
+            ui.caution("--max has no effect: in pixels it is the largest distance that counts", "");
+        }
+    }
+
+    /// Whether the distance is one in the picture.
+    fn in_pixels(&self) -> bool {
+        self.within.is_some_and(|tolerance| tolerance.measure == Measure::Pixels)
+    }
+
     fn measure(&self) -> Measure {
         if self.max { Measure::Max } else { Measure::Rms }
     }

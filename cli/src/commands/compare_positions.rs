@@ -13,7 +13,7 @@ use crate::session::files::{numbered, target};
 use crate::session::progress::{Progress, Stages};
 use drape::cloth::Points;
 use drape::error::{Error, Kind, Result};
-use drape::scene::Scene;
+use drape::scene::{SEEN, Scene};
 use drape::simulation::Simulation;
 use drape_lab::grader::{self, Case, Comparison, Difference, Event, Ours, Pair, State};
 
@@ -44,12 +44,16 @@ pub(crate) struct Args {
     stability: StabilityArgs,
 }
 
+/// Why two files need no scene.
+const PAIR: &str = "two files of positions are compared number by number";
+
 /// Compares and prints; a difference beyond the tolerance is an error of [`Kind::Difference`].
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     if is_positions(&args.scene.path) {
         return args.run_pair(session);
     }
     let scene = args.scene.load(session)?;
+    args.scene.caution(&SEEN, "positions do not depend on how they are drawn", &session.ui);
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(
             Kind::Nothing,
@@ -88,9 +92,17 @@ impl Args {
     /// Compares two files of positions.
     fn run_pair(&self, session: &Session) -> Result<()> {
         if self.frame.is_some() || self.frames.is_some() {
-            let message =
-                "two files of positions are compared number by number, so there are no frames to name";
+            let message = format!("{PAIR}, so there are no frames to name");
             return Err(Error::new(Kind::Usage, message).with_help("leave out --frame and --frames"));
+        }
+        for (given, option) in [
+            (self.scene.is_changed(), "--set or --patch"),
+            (self.no_diagnosis, "--no-diagnosis"),
+            (self.stability.allow_unstable, "--allow-unstable"),
+        ] {
+            if given {
+                session.ui.caution(&format!("{option} has no effect: {PAIR}"), "");
+            }
         }
         let [a, b] = [&self.scene.path, &self.file].map(|path| grader::read_numbers(path));
         let pair = Pair::new(&a?, &b?, self.tolerance)?;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::args::address::address;
 use crate::args::flag::{flag, size};
 use crate::args::part::Part;
 use crate::commands::{cells, render};
@@ -12,6 +13,7 @@ use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
+use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
 use drape::output::provenance::Arguments;
 use drape::scene::Flag;
@@ -44,7 +46,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K/N")]
     part: Option<Part>,
     /// Link each picture on the page to its moment on the live page at this address (see web/README.md)
-    #[arg(long, value_name = "URL", conflicts_with = "pictures")]
+    #[arg(long, value_name = "URL", value_parser = address, conflicts_with = "pictures")]
     live: Option<String>,
 }
 
@@ -78,6 +80,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let store = cells::open(&args.out)?;
     let reel = Reel::new(&shots, !args.pictures, &store);
     if let Some(part) = args.part {
+        args.caution_of_part(&session.ui);
         let reel = reel.only(|number| part.takes(number));
         watched(&reel, session, |each_frame| reel.simulate(each_frame))?;
         cells::finish_part(&store, &args.out, session);
@@ -97,6 +100,15 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    /// Warns of options that change nothing in a part, which only simulates.
+    fn caution_of_part(&self, ui: &Ui) {
+        for (given, option) in [(self.live.is_some(), "--live"), (self.size.is_some(), "--size")] {
+            if given {
+                ui.caution(&format!("{option} has no effect: a part only simulates"), "");
+            }
+        }
+    }
+
     fn shot(&self, picture: &Picture) -> Result<Shot> {
         let size = self.size.as_ref().map(|size| flag("--size", "render.size", size));
         read(picture, size)

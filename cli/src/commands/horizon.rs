@@ -13,6 +13,7 @@ use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
 use drape::error::{Error, Kind, Result};
+use drape::scene::SEEN;
 use drape_lab::accuracy::measure::Measure;
 use drape_lab::accuracy::source::Source;
 use drape_lab::horizon::{self, Horizon};
@@ -37,6 +38,11 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let scene = args.scene.load(session)?;
     outputs::check(&args.scene.inputs(), args.page.iter().map(|path| (path.as_path(), Content::Text)))?;
+    args.scene.caution_of_moment(
+        &[("--time", args.time.is_some()), ("--frame", args.frame.is_some())],
+        &session.ui,
+    );
+    args.scene.caution(&SEEN, "`horizon` draws nothing", &session.ui);
     let frames = args.frame.unwrap_or_else(|| frame_at(args.time, &scene));
     if scene.cloth.is_none() || frames == 0 {
         return Err(Error::new(

@@ -38,6 +38,9 @@ struct Info {
     /// is seen.
     #[serde(skip_serializing_if = "Option::is_none")]
     unlit: Option<f64>,
+    /// What to do about that, in words.
+    #[serde(skip)]
+    hint: String,
 }
 
 /// The size of the cloth, and its step.
@@ -88,6 +91,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 
 impl Info {
     fn of(scene: &Scene) -> Result<Self> {
+        let unlit = unlit::part(scene)?;
         Ok(Self {
             size: scene.render.size,
             samples: scene.render.samples,
@@ -99,7 +103,8 @@ impl Info {
             colliders: scene.collider_counts(),
             memory: Memory::of(scene),
             needs: plan(scene),
-            unlit: unlit::part(scene)?,
+            unlit,
+            hint: unlit::hint(scene, unlit)?,
         })
     }
 
@@ -120,19 +125,7 @@ impl Info {
             colliders.join(", "),
             self.memory.cloth,
             self.memory.picture,
-        ) + &self.hint()
-    }
-
-    /// What to do where most of what is seen is unlit.
-    fn hint(&self) -> String {
-        match self.unlit {
-            Some(part) if part > 0.5 => format!(
-                "\nhint        {:.0} % of what is seen at the start faces away from the light: material.two_sided=true lights \
-                 both sides, or move light.position\n",
-                100.0 * part
-            ),
-            _ => String::new(),
-        }
+        ) + &self.hint
     }
 }
 

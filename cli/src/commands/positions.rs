@@ -62,6 +62,16 @@ impl PositionsArgs {
         Ok(self.provenance.map(|detail| detail.of(loaded, Arguments::default())))
     }
 
+    /// Warns of an option that changes nothing.
+    pub(super) fn caution(&self, ui: &Ui) {
+        if let (2.., Ok(Some(_))) = (self.every, self.file()) {
+            ui.caution(
+                "--every has no effect: --positions names one file, of the last frame",
+                "a name with a place for a number, such as dump/%04d.npy, means a file for each frame",
+            );
+        }
+    }
+
     /// The files that are written first.
     ///
     /// # Errors

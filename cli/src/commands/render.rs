@@ -85,12 +85,16 @@ struct Summary {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let loaded = args.scene.load_with_flags(&args.render.flags(), session)?;
     let scene = &loaded.scene;
+    args.moment.caution(&args.scene, &session.ui);
     let until = args.moment.until(scene);
     let path = args.picture_path()?;
     args.check_outputs(&path, scene, session)?;
     // All inputs are read before anything is simulated.
     let renderer = renderer(scene, &args.render.textures(), session)?;
     args.render.caution(scene, &renderer, &session.ui);
+    if !args.writes() {
+        args.render.provenance.caution_of_no_file(&session.ui);
+    }
     let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
     let seen = args.state.restore(&mut simulation, scene, until.frames)?;
     let until = Until { seen, ..until };
@@ -128,8 +132,16 @@ impl Args {
         Ok(args)
     }
 
-    /// The path of the picture.
+    /// Whether the picture is written.
+    fn writes(&self) -> bool {
+        self.bench.is_none() && !self.hash
+    }
+
+    /// The path of the picture; none is needed where it is not written.
     fn picture_path(&self) -> Result<PathBuf> {
+        if !self.writes() {
+            return Ok(PathBuf::new());
+        }
         let named = (self.scene.path.as_os_str() != "-").then_some(&self.scene.path);
         let beside = || Some(Path::new(named?.file_stem()?).with_extension("png"));
         match self.picture.clone().or_else(beside) {
@@ -141,7 +153,7 @@ impl Args {
 
     /// Checks all outputs before any long work; with `--bench` and `--hash` there are none.
     fn check_outputs(&self, picture: &Path, scene: &Scene, session: &Session) -> Result<()> {
-        if self.bench.is_some() || self.hash {
+        if !self.writes() {
             return Ok(());
         }
         outputs::check_ending(picture, "png")?;

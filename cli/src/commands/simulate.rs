@@ -18,8 +18,9 @@ use crate::session::Session;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
+use crate::session::ui::Ui;
 use drape::error::{Error, Kind, Result};
-use drape::scene::Scene;
+use drape::scene::{SEEN, Scene};
 use drape::simulation::{Simulation, Timings};
 use drape_lab::accuracy::source::Source;
 use drape_lab::choose::{OwnError, own_error};
@@ -81,6 +82,7 @@ struct Bench {
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let loaded = args.scene.load_with_flags(&[], session)?;
     let scene = &loaded.scene;
+    args.caution(&session.ui);
     let until = args.until(scene);
     let said = args.positions.provenance(&loaded)?;
     let said = said.as_ref();
@@ -121,6 +123,24 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    /// Warns of options that change nothing.
+    fn caution(&self, ui: &Ui) {
+        let moments = [
+            ("--time", self.time.is_some()),
+            ("--frames", self.frames.is_some()),
+            ("--until-rest", self.until_rest),
+        ];
+        self.scene.caution_of_moment(&moments, ui);
+        self.scene.caution(&SEEN, "`simulate` draws nothing", ui);
+        if self.ledger && self.fills_stdout() {
+            ui.caution(
+                "--ledger has no effect: there is no summary where standard output has other results",
+                "--csv has the energies of every frame",
+            );
+        }
+        self.positions.caution(ui);
+    }
+
     fn until(&self, scene: &Scene) -> Until {
         let time = self.time.or(self.until_rest.then_some(REST_TIME));
         let frames = self.frames.unwrap_or_else(|| frame_at(time, scene));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::args::address::address;
 use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
 use crate::commands::cells;
@@ -11,9 +12,10 @@ use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
+use crate::session::ui::Ui;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
-use drape::scene::{Cloth, Scene};
+use drape::scene::{Cloth, SEEN, Scene};
 use drape_lab::page::short;
 use drape_lab::stability_map::extremes::{self, Row};
 use drape_lab::stability_map::range::Values;
@@ -53,7 +55,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K/N")]
     part: Option<Part>,
     /// Link each row of the page's table to its cloth on the live page at this address (see web/README.md)
-    #[arg(long, value_name = "URL")]
+    #[arg(long, value_name = "URL", value_parser = address)]
     live: Option<String>,
 }
 
@@ -70,6 +72,7 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let Some(cloth) = &scene.cloth else {
         return Err(Error::new(Kind::Nothing, "the scene has no cloth, so there is no map of its stability"));
     };
+    args.caution(&session.ui);
     let files = ["index.html", "results.json"].map(|name| args.out.join(name));
     outputs::make_folder(&args.out)?;
     outputs::check(&args.scene.inputs(), files.iter().map(|file| (file.as_path(), Content::Text)))?;
@@ -90,6 +93,29 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
 }
 
 impl Args {
+    /// Warns of options that change nothing.
+    fn caution(&self, ui: &Ui) {
+        self.scene.caution_of_own_moments(ui);
+        for (key, option) in
+            [("cloth.ks", "--ks"), ("cloth.density", "--density"), ("sim.steps_per_frame", "--steps")]
+        {
+            self.scene.caution(&[key], &format!("{option} says which values the map has"), ui);
+        }
+        if self.live.is_none() {
+            self.scene.caution(&SEEN, "`stability` draws nothing of the scene", ui);
+        }
+        if self.live.is_some() && self.part.is_some() {
+            ui.caution("--live has no effect: a part writes no page", "");
+        }
+        let ranges = [&self.ks, &self.density, &self.steps];
+        if self.quick && self.time.is_some() && ranges.iter().all(|range| range.is_some()) {
+            ui.caution(
+                "--quick has no effect: --ks, --density, --steps and --time say all that it would",
+                "",
+            );
+        }
+    }
+
     /// Runs a part of the map.
     fn share(
         &self,

@@ -2,16 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::args::address::address;
 use crate::args::flag::seconds;
 use crate::args::part::Part;
 use crate::args::scene::SceneArgs;
+use crate::args::textures;
 use crate::commands::cells;
 use crate::session::files::atomic;
 use crate::session::files::outputs;
 use crate::session::files::target::Content;
 use crate::session::progress::Tally;
+use crate::session::ui::Ui;
 use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
+use drape::scene::Scene;
 use drape::texture_source::TextureSource;
 use drape_lab::accuracy::source::Source;
 use drape_lab::printable;
@@ -20,6 +24,10 @@ use drape_lab::study::{self, Results};
 
 /// The latest moment of a study, in tenths of a second.
 const MOST_TENTHS: f64 = 600.0;
+
+/// Keys of which a study tries values of its own.
+const VARIED: [&str; 5] =
+    ["sim.integrator", "sim.steps_per_frame", "sim.precision", "sim.start", "sim.damping"];
 
 /// The arguments of `study`.
 #[derive(clap::Args)]
@@ -52,13 +60,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
     /// Link each run on the page to its cloth on the live page at this address (see web/README.md)
-    #[arg(long, value_name = "URL")]
+    #[arg(long, value_name = "URL", value_parser = address)]
     live: Option<String>,
 }
 
 /// Runs what no earlier study has finished, writes the page and prints the advice.
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
-    args.scene.load(session)?;
+    let scene = args.scene.load(session)?;
+    args.caution(&scene, &session.ui);
     let source = Source { path: args.scene.path.clone(), overrides: args.scene.overrides() };
     let extent = if args.quick { Extent::quick() } else { Extent::full() };
     let extent = args.time.map_or_else(|| Ok(extent.clone()), |time| up_to(extent.clone(), time))?;
@@ -109,9 +118,33 @@ fn up_to(extent: Extent, time: f64) -> Result<Extent> {
 }
 
 impl Args {
+    /// Warns of options that change nothing.
+    fn caution(&self, scene: &Scene, ui: &Ui) {
+        self.scene.caution_of_own_moments(ui);
+        self.scene.caution(&VARIED, "the study tries values of its own", ui);
+        for (key, path) in KEPT.into_iter().map(|key| (key, format!("sim.{key}"))) {
+            if !self.keep.iter().any(|keep| keep == key) {
+                self.scene.caution(
+                    &[&path],
+                    &format!("the study goes without it, except for --keep {key}"),
+                    ui,
+                );
+            }
+        }
+        if self.live.is_some() && self.part.is_some() {
+            ui.caution("--live has no effect: a part writes no page", "");
+        }
+        if self.only.is_empty() {
+            textures::caution(self.textures.as_deref(), scene, ui);
+        } else if self.textures.is_some() {
+            ui.caution("--textures has no effect: with --only no pictures are drawn", "");
+        }
+    }
+
     fn folder(&self) -> Result<PathBuf> {
         let beside = || {
-            let name = self.scene.path.file_stem()?.to_string_lossy();
+            let named = Some(&self.scene.path).filter(|path| path.as_os_str() != "-");
+            let name = named?.file_stem()?.to_string_lossy();
             Some(Path::new(&format!("{name}-study")).to_owned())
         };
         let missing = || {

@@ -18,6 +18,7 @@ use crate::session::progress::Progress;
 use drape::bounded;
 use drape::error::{Error, Kind, Result};
 use drape::scene::MAX_FILE;
+use drape_lab::sweep::idle::idle;
 use drape_lab::sweep::plan::{Plan, Text};
 use drape_lab::sweep::report::{self, Counts};
 use drape_lab::sweep::work::{self, Event};
@@ -131,6 +132,9 @@ fn plan(args: &Spec, session: &Session) -> Result<Plan> {
     let plan = Plan::make(out, [spec, scene], atomic::write, &mut cases, &mut check)?;
     staged.finish()?;
     plan.publish(atomic::write)?;
+    for sentence in idle(&plan) {
+        session.ui.caution(&sentence, "leave it out: its values make cases that differ in nothing else");
+    }
     Ok(plan)
 }
 

@@ -10,8 +10,28 @@ use drape::texture_source::TextureSource;
 /// Width of the picture in which pixels are counted.
 const WIDTH: f64 = 160.0;
 
+/// Where more than this is unlit, something is to be done.
+const MOST: f64 = 0.5;
+
 /// So strong a light that whatever it reaches is white.
 const BRIGHT: f64 = 1e14;
+
+/// What to do where most of what is seen is unlit, of which `part` is; empty where it is not.
+///
+/// # Errors
+/// As [`part`].
+pub(crate) fn hint(scene: &Scene, unlit: Option<f64>) -> Result<String> {
+    let Some(share) = unlit.filter(|share| *share > MOST) else { return Ok(String::new()) };
+    let mut both = scene.clone();
+    both.materials_mut().for_each(|material| material.two_sided = true);
+    // A side that is turned to the camera may face away from the light all the same.
+    let cured = part(&both)?.is_some_and(|rest| rest <= MOST);
+    let cure = if cured { "material.two_sided=true lights both sides, or move" } else { "move" };
+    Ok(format!(
+        "\nhint        {:.0} % of what is seen at the start faces away from the light: {cure} light.position\n",
+        100.0 * share
+    ))
+}
 
 /// The part of what is seen of lit objects at the start that faces away from the light, from 0 to 1; nothing if no
 /// lit object is seen.

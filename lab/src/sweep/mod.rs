@@ -10,5 +10,6 @@ pub mod case;
 pub mod plan;
 pub mod record;
 mod run;
+pub mod idle;
 pub mod work;
 pub mod report;

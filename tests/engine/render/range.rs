@@ -43,6 +43,40 @@ fn a_picture_is_the_same_wherever_its_scene_is() {
     }
 }
 
+/// A camera that fits goes to the things, and what `camera.target` and `camera.distance` say then has no effect.
+#[test]
+fn a_camera_that_fits_shows_the_same_wherever_the_scene_is() {
+    let at = |[x, y, z]: [f64; 3], objects: &str, more: &str| {
+        let text = format!(
+            r#"{{{}, "material": {{"shader": "normal"}}, "render": {{"size": [120, 96]}},
+                "camera": {{"fit": true, "polar": 65, "azimuth": 25{more}}}}}"#,
+            objects.replace("PLACE", &format!("[{x}, {y}, {z}]"))
+        );
+        draw(&load_text("there.json", &text, &Overrides::default()).unwrap().scene)
+    };
+    let cloth = r#""cloth": {"width": 1, "height": 0.7, "num_width_points": 8, "num_height_points": 6, "thickness": 0,
+        "orientation": 0, "damping": 0, "density": 150, "ks": 5000, "enable_structural": true,
+        "enable_shearing": true, "enable_bending": true, "offset": PLACE}"#;
+    let cuboid = r#""box": {"origin": PLACE, "size": [0.8, 0.5, 0.6], "friction": 0}"#;
+    let ball = r#""sphere": {"origin": PLACE, "radius": 0.4, "friction": 0}"#;
+    let on_a_floor =
+        format!(r#"{cuboid}, "plane": {{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0}}"#);
+    for objects in [cloth, cuboid, ball, &on_a_floor] {
+        let here = at([0.0; 3], objects, "");
+        assert!(here.stats.covered > 1000, "{objects}: {}", here.stats.covered);
+        for place in [[1e6, 0.0, 0.0], [0.0, 1e7, 0.0], [0.0, 0.0, -1e7], [1e7, -1e7, 1e7]] {
+            for more in ["", r#", "target": [0, 3, 0], "distance": 1e9"#] {
+                // Seen alone: a floor at the origin is not at the other places.
+                let [here, there] = [[0.0; 3], place]
+                    .map(|place| at(place, objects.split(", \"plane\"").next().unwrap(), more));
+                let apart = apart(&here, &there);
+                assert!(apart <= 20, "{objects}{more} at {place:?}: {apart} pixels");
+                assert!(at(place, objects, more).stats.covered > 1000, "{objects} at {place:?}");
+            }
+        }
+    }
+}
+
 /// A cloth that is far away from the origin of its own camera is no reason to move anything.
 #[test]
 fn near_the_origin_nothing_is_moved() {

@@ -40,9 +40,11 @@ const FLOOR: &str = r#"{"plane": {"point": [0, 0, 0], "normal": [0, 1, 0], "fric
     "camera": {"target": [0, 0, 0], "distance": 2, "polar": 20}}"#;
 const BALL: &str = r#"{"sphere": {"origin": [0, 0, 0], "radius": 1, "friction": 0},
     "camera": {"target": [0, 0, 0], "distance": 4}}"#;
+const BOX: &str = r#"{"box": {"origin": [0, 0, 0], "size": [2, 2, 2], "friction": 0},
+    "camera": {"target": [0, 0, 0], "distance": 5}}"#;
 
 /// The ramp falls towards v = 0, so what lies there lights it, and what lies beyond v = 1 does not. On a floor v grows
-/// towards +z, on a ball and on a cloth that lies flat downwards or towards +z.
+/// towards +z, on a ball, the sides of a box and a cloth that lies flat downwards or towards +z.
 #[test]
 fn a_relief_is_lit_from_the_right_side() {
     let cloth = fs::read_to_string(crate::repository::path("scenes/pinned2.json")).unwrap();
@@ -50,6 +52,9 @@ fn a_relief_is_lit_from_the_right_side() {
     for (text, view, low, high) in [
         (FLOOR, &[][..], "[0,1,-2]", "[0,1,2]"),
         (BALL, &[], "[0,3,2]", "[0,-3,2]"),
+        (BOX, &[], "[0,3,2]", "[0,-3,2]"),
+        (BOX, &["camera.azimuth=-90"], "[-2,3,0]", "[-2,-3,0]"),
+        (BOX, &["camera.polar=0"], "[0,2,-3]", "[0,2,3]"),
         (cloth.as_str(), &above, "[0.5,2,-1]", "[0.5,2,2]"),
     ] {
         for shader in ["bump", "displacement"] {

@@ -1,4 +1,4 @@
-//! Pictures stand as other programs show them: turned by their Exif data, upright and readable on planes and balls,
+//! Pictures stand as other programs show them: turned by their Exif data, upright and readable on planes, balls and boxes,
 //! and ending at the poles of a ball.
 
 use std::fs;
@@ -56,6 +56,18 @@ fn pictures_on_planes_are_upright_and_readable() {
         let picture = draw(&quarters(), &plane, &camera, "texture");
         let seen = [[52, 52], [68, 52], [52, 68], [68, 68]].map(|at| pixel(&picture, at));
         assert_eq!(seen, QUARTERS, "{normal:?} from {polar}, {azimuth}");
+    }
+}
+
+#[test]
+fn pictures_on_boxes_are_upright_and_readable_from_every_side() {
+    let cuboid = r#""box": {"origin": [1, 2, 3], "size": [1.2, 0.9, 1], "friction": 0}"#;
+    let sides = [("front", 90, 0), ("right", 90, 90), ("back", 90, 180), ("left", 90, 270)];
+    for (side, polar, azimuth) in sides.into_iter().chain([("top", 0, 0), ("bottom", 180, 0)]) {
+        let camera = format!(r#""target": [1, 2, 3], "distance": 3, "polar": {polar}, "azimuth": {azimuth}"#);
+        let picture = draw(&quarters(), cuboid, &camera, "texture");
+        let seen = [[48, 48], [72, 48], [48, 72], [72, 72]].map(|at| pixel(&picture, at));
+        assert_eq!(seen, QUARTERS, "{side}");
     }
 }
 

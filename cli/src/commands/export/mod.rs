@@ -12,6 +12,7 @@ use crate::args::frames::Frames;
 use crate::args::provenance::ProvenanceArgs;
 use crate::args::scene::{Moment, SceneArgs};
 use crate::args::state::StateArgs;
+use crate::args::textures;
 use crate::run::advance::{Until, advance_until};
 use crate::run::start::start;
 use crate::session::Session;
@@ -57,6 +58,14 @@ pub(crate) struct Args {
     provenance: ProvenanceArgs,
 }
 
+/// Keys of a scene that no mesh has.
+const SEEN_ALONE: [&str; 6] =
+    ["camera", "light", "render.size", "render.samples", "render.background", "render.seamless"];
+
+/// Where the keys of materials stand.
+const MATERIALS: [&str; 5] =
+    ["material", "cloth.material", "sphere.material", "box.material", "plane.material"];
+
 /// The summary.
 #[derive(Serialize)]
 struct Summary {
@@ -83,10 +92,15 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let (format, pattern) = (Format::of(&args.mesh)?, args.pattern()?);
     args.provenance.caution(&args.mesh, format == Format::Glb, &session.ui);
     args.caution(format, scene, &session.ui);
+    args.caution_of_sets(format, &session.ui);
     let path = if pattern.is_some() { args.mesh.clone() } else { one(&args.mesh)? };
     let writer = Writer { path: &path, format, pattern, materials: args.materials, source: &source };
     let inputs: Vec<PathBuf> = args.scene.inputs().into_iter().chain(args.state.inputs()).collect();
-    writer.check(&inputs, scene, args.objects, &frames, &args.state.outputs().collect::<Vec<_>>())?;
+    let written = writer.textures(scene, args.objects)?;
+    writer.check(&inputs, written.keys(), &frames, &args.state.outputs().collect::<Vec<_>>())?;
+    for (name, _) in written.iter().filter(|(_, texture)| texture.was_transparent()) {
+        textures::caution_of_transparency(name, &session.ui);
+    }
     let mut simulation = start(scene, until.frames, args.moment.stability.allow_unstable, session)?;
     let seen = args.state.restore(&mut simulation, scene, frames.start)?;
     let until = Until { seen, ..until };
@@ -133,8 +147,21 @@ fn add(motion: &mut Motion, states: &mut StateHash, frames: &Frames, simulation:
 }
 
 impl Args {
+    /// Warns of keys that are set and change nothing in a mesh.
+    fn caution_of_sets(&self, format: Format, ui: &Ui) {
+        self.moment.caution(&self.scene, ui);
+        self.scene.caution_of_moment(&[("--frames", self.frames.is_some())], ui);
+        self.scene.caution(&SEEN_ALONE, "only a picture shows it", ui);
+        if format != Format::Glb && !self.materials {
+            self.scene.caution(&MATERIALS, "materials are not exported", ui);
+        }
+    }
+
     /// Warns of options that change nothing.
     fn caution(&self, format: Format, scene: &Scene, ui: &Ui) {
+        if self.objects && scene.colliders.is_empty() {
+            ui.caution("--objects has no effect: the scene has no object but the cloth", "");
+        }
         let is_glb = format == Format::Glb;
         if self.materials && is_glb {
             ui.caution("--materials has no effect: a .glb always has materials", "");

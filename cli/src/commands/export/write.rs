@@ -1,5 +1,6 @@
 //! Writing meshes: the files that belong to one path.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,8 @@ use drape::output::part::Part;
 use drape::output::png::{self, Effort};
 use drape::output::provenance::Provenance;
 use drape::output::{obj, ply};
-use drape::scene::{Needs, Scene};
+use drape::scene::{Collider, Material, Needs, Scene};
+use drape::texture::Texture;
 use drape::texture_source::TextureSource;
 
 /// Where meshes are written to, and how.
@@ -29,12 +31,11 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Checks, before long work, that the files and `others` can be written; reads the textures that they take.
-    pub(super) fn check(
+    /// Checks, before long work, that the files, the textures `names` beside them and `others` can be written.
+    pub(super) fn check<'n>(
         &self,
         inputs: &[PathBuf],
-        scene: &Scene,
-        objects: bool,
+        names: impl Iterator<Item = &'n String> + Clone,
         frames: &Range<u64>,
         others: &[(&Path, Content)],
     ) -> Result<()> {
@@ -52,12 +53,44 @@ impl Writer<'_> {
         };
         let library = self.library().filter(|_| self.pattern.is_none());
         let meshes = outputs.iter().chain(&library).map(|path| (path.as_path(), content));
-        outputs::check(inputs, meshes.chain(others.iter().copied()))?;
-        let names = scene.materials().filter(|_| objects || scene.cloth.is_some());
-        for material in names.filter(|material| self.has_materials() && Needs::of(material.shader).texture) {
-            self.source.texture(&material.texture)?;
-        }
+        // Of numbered files the folder may not be there yet, and then has no texture of the user.
+        let is_there = |path: &PathBuf| self.pattern.is_none() || path.exists();
+        let textures: Vec<PathBuf> = self.beside(names.clone()).into_iter().filter(is_there).collect();
+        let read: Vec<PathBuf> = inputs.iter().cloned().chain(self.source.files(names)).collect();
+        let textures = textures.iter().map(|path| (path.as_path(), Content::Binary));
+        outputs::check(&read, meshes.chain(others.iter().copied()).chain(textures))?;
         Ok(())
+    }
+
+    /// The textures that are written, each read once; with `objects` those of all objects.
+    ///
+    /// # Errors
+    /// As [`TextureSource::texture`].
+    pub(super) fn textures(&self, scene: &Scene, objects: bool) -> Result<BTreeMap<String, Texture>> {
+        let cloth = scene.cloth.iter().map(|cloth| &cloth.material);
+        let others = scene.colliders.iter().filter(|_| objects).map(Collider::material);
+        let mut textures = BTreeMap::new();
+        for name in cloth.chain(others).flat_map(|material| self.names(material)) {
+            textures.insert(name.clone(), self.source.texture(name)?);
+        }
+        Ok(textures)
+    }
+
+    /// The names of the textures that are written for a material.
+    fn names<'m>(&self, material: &'m Material) -> impl Iterator<Item = &'m String> + use<'m> {
+        let needs = Needs::of(material.shader);
+        let kept = [
+            (needs.texture && self.has_materials(), &material.texture),
+            (needs.height_map && self.library().is_some(), &material.height_map),
+        ];
+        kept.into_iter().filter(|(written, _)| *written).map(|(_, name)| name)
+    }
+
+    /// Where the textures `names` are written, beside the file of the materials.
+    fn beside<'n>(&self, names: impl Iterator<Item = &'n String>) -> Vec<PathBuf> {
+        let library = self.library();
+        let path = |name: &String| Some(library.as_ref()?.with_file_name(format!("{name}.png")));
+        names.filter_map(path).collect()
     }
 
     /// Whether the files have materials.
@@ -118,13 +151,8 @@ impl Writer<'_> {
 
     /// Writes the textures that the materials of `parts` name beside their file.
     fn write_textures(&self, library: &Path, parts: &[Part<'_>]) -> Result<()> {
-        for part in parts {
-            let needs = Needs::of(part.material.shader);
-            let read =
-                [(needs.texture, &part.material.texture), (needs.height_map, &part.material.height_map)];
-            for (_, name) in read.into_iter().filter(|(reads, _)| *reads) {
-                atomic::write(&library.with_file_name(format!("{name}.png")), &self.texture(name)?)?;
-            }
+        for name in parts.iter().flat_map(|part| self.names(part.material)) {
+            atomic::write(&library.with_file_name(format!("{name}.png")), &self.texture(name)?)?;
         }
         Ok(())
     }

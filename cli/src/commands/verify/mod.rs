@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use crate::args::render::{springs, texture_hash};
-use crate::args::state;
+use crate::args::{state, textures};
 use crate::run::start::{renderer, start};
 use crate::session::Session;
 use again::{Again, Moments};
@@ -75,6 +75,7 @@ fn verify(args: &Args, file: &File, report: &mut Report, session: &Session) -> R
     let Some(scene) = args.scene(said, report, session)? else { return Ok(()) };
     let source = args.textures.clone().map_or(TextureSource::BuiltIn, TextureSource::Folder);
     let renderer = renderer(&scene, &source, session)?;
+    textures::caution(args.textures.as_deref(), &scene, &session.ui);
     check_textures(said, &scene, &renderer, report);
     if !report.is_equal() {
         return Ok(());

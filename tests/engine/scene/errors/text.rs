@@ -79,6 +79,22 @@ fn what_is_too_deep_or_too_large_or_not_utf8_is_refused() {
 }
 
 #[test]
+fn what_is_no_utf8_is_refused_and_utf16_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.json");
+    let wide = |bytes: fn(u16) -> [u8; 2]| "\u{feff}{}".encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
+    for (bytes, reason) in [
+        (wide(u16::to_le_bytes), "the file is UTF-16: save it as UTF-8"),
+        (wide(u16::to_be_bytes), "the file is UTF-16: save it as UTF-8"),
+        (b"{\"cl\xF6th\": 1}".to_vec(), "not valid UTF-8"),
+    ] {
+        fs::write(&path, &bytes).unwrap();
+        let error = load(&path, &Overrides::default()).unwrap_err();
+        assert!(error.message.ends_with(reason), "{bytes:?}: {}", error.message);
+    }
+}
+
+#[test]
 fn a_file_that_cannot_be_read_is_an_input_error() {
     let missing = Path::new("no/such/scene.json");
     let error = load(missing, &Overrides::default()).unwrap_err();
