@@ -9,10 +9,10 @@
 //! selfCollision scene over 110 frames: no two points come closer than 11.6 mm (19 mm are asked for),
 //! where the search in one cell lets them come to 1.1 mm.
 //!
-//! Few pairs come close, so all are first compared where they are when the phase begins. Of two points one has not yet
-//! moved at the turn of the other, which moves only then. So a pair that is closer at a turn than twice the thickness is
-//! at most `2 thickness / T` further apart at the beginning. Only such pairs are looked at again, at the turn of each
-//! point: in index order, where the points are then, and by the exact rule.
+//! Few pairs come close, so all are first compared where they are when the phase begins. A point that has its turn has
+//! not moved yet, and another one once at most, by up to `2 thickness / T`. So a pair that is closer at a turn than twice
+//! the thickness is at most that much further apart when the phase begins. Only such pairs are looked at again, at the turn
+//! of each point: in index order, where the points are then, and by the exact rule. Others would add nothing to its pushes.
 
 use rayon::prelude::*;
 

@@ -22,9 +22,9 @@ struct Function {
     wide: usize,
     /// Those of four f32.
     narrow: usize,
-    /// Of 256-bit vectors of f64: roots, divisions and comparisons; roots of single f64; and comparisons of 256-bit vectors
-    /// of f32.
-    of_cloth: [usize; 5],
+    /// Of 256-bit vectors of f64: roots, divisions and comparisons; roots of single f64; comparisons of 256-bit vectors
+    /// of f32; and results of comparisons of f64 as bits.
+    of_cloth: [usize; 6],
     /// Addresses of the functions that it calls.
     calls: Vec<u64>,
 }
@@ -56,6 +56,7 @@ fn operation_of_cloth(mnemonic: &str, operands: &str) -> Option<usize> {
         _ if compares && mnemonic.ends_with("pd") => Some(2),
         _ if compares && mnemonic.ends_with("ps") => Some(4),
         "vsqrtsd" => Some(3),
+        "vmovmskpd" if wide => Some(5),
         _ => None,
     }
 }
@@ -155,26 +156,32 @@ fn hot_loops_are_compiled_for_their_level() {
     }
 }
 
-/// How many copies for AVX2 there are of the loops over springs' forces, over the cells of self-collision and over
-/// the springs that may be too long, each recognised by what only it computes with whole vectors.
-fn cloth_loops(functions: &BTreeMap<u64, Function>) -> [usize; 3] {
+/// How many copies for AVX2 there are of the loops over springs' forces, over the cells of self-collision, over those and
+/// their neighbours, and over the springs that may be too long, each recognised by what only it computes with whole vectors.
+fn cloth_loops(functions: &BTreeMap<u64, Function>) -> [usize; 4] {
     let copies = || functions.values().filter(|function| function.name.contains("vectorize_avx2"));
     let forces = |copy: &&Function| copy.of_cloth[0] >= 2 && copy.of_cloth[1] >= 2;
     let cells =
         |copy: &&Function| copy.of_cloth[..3] == [0; 3] && copy.of_cloth[3] >= 1 && copy.of_cloth[4] >= 1;
+    let neighbors = |copy: &&Function| copy.of_cloth[..2] == [0; 2] && copy.of_cloth[5] >= 5;
     let limit = |copy: &&Function| {
         let called = copy.calls.iter().filter_map(|address| functions.get(address));
         copy.of_cloth[2] >= 2 && called.into_iter().any(|called| called.name.contains("shorten"))
     };
-    [copies().filter(forces).count(), copies().filter(cells).count(), copies().filter(limit).count()]
+    let count = |is: &dyn Fn(&&Function) -> bool| copies().filter(|copy| is(copy)).count();
+    [count(&forces), count(&cells), count(&neighbors), count(&limit)]
 }
 
 #[test]
 fn the_loops_of_the_cloth_are_among_them() {
     let Some(functions) = of_the_program() else { return };
-    let [forces, cells, limit] = cloth_loops(&functions);
+    let [forces, cells, neighbors, limit] = cloth_loops(&functions);
     assert_eq!(forces, 3, "forces with Verlet's scheme, forces apart, and the stiffness of springs");
-    assert_eq!([cells, limit], [1, 1], "cells of self-collision, and the stretch limit");
+    assert_eq!(
+        [cells, neighbors, limit],
+        [1; 3],
+        "self-collision without and with neighbours, and the stretch limit"
+    );
 }
 
 /// Functions of the C library whose bits differ between systems and processors.
