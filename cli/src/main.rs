@@ -28,6 +28,7 @@ use session::{Session, exit_code, guard, one_arena, threads};
 
 fn main() -> ExitCode {
     stop::exit_without_memory();
+    stop::fail_writes_beyond_limit();
     one_arena::ensure();
     let json = std::env::args_os().any(|argument| argument == "--json");
     ExitCode::from(guard::guarded(json, || match CommandLine::try_parse() {

@@ -181,10 +181,15 @@ impl Provenance {
     /// What the texts of a file say; nothing if none has a keyword of [`Provenance::texts`].
     ///
     /// # Errors
-    /// [`Kind::Io`] when they are not whole or not readable.
+    /// [`Kind::Io`] when they are not whole or not readable, or one of them stands there twice.
     pub fn from_texts(texts: &[(String, String)]) -> Result<Option<Self>> {
-        let own = texts.iter().filter_map(|(keyword, text)| Some((keyword.strip_prefix(PREFIX)?, text)));
-        let values: Map<String, Value> = own.map(|(key, text)| (key.to_owned(), parsed(text))).collect();
+        let mut values = Map::new();
+        for (keyword, text) in texts {
+            let Some(key) = keyword.strip_prefix(PREFIX) else { continue };
+            if values.insert(key.to_owned(), parsed(text)).is_some() {
+                return Err(Error::new(Kind::Io, format!("the file says `{keyword}` twice: it is damaged")));
+            }
+        }
         if values.is_empty() {
             return Ok(None);
         }
@@ -248,6 +253,10 @@ mod tests {
         for (i, _) in texts.iter().enumerate().filter(|(_, (key, _))| key == "drape:scene") {
             let less = [&texts[..i], &texts[i + 1..]].concat();
             assert_eq!(Provenance::from_texts(&less).unwrap_err().kind, Kind::Io);
+        }
+        for twice in &texts {
+            let more = [&texts[..], std::slice::from_ref(twice)].concat();
+            assert_eq!(Provenance::from_texts(&more).unwrap_err().kind, Kind::Io, "{twice:?}");
         }
     }
 

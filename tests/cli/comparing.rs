@@ -254,3 +254,32 @@ fn jpeg_pictures_are_compared_as_they_are_shown() {
     let turned = scratch.run(&["compare", "a.jpg", "turned.jpg", "--json"]);
     assert_eq!((turned.code, &turned.object()["size_b"]), (Some(1), &json!([10, 20])));
 }
+
+/// The sides of the screen stand behind the six bytes of the signature.
+#[test]
+fn an_animation_without_pixels_is_refused() {
+    let scratch = Scratch::new();
+    gif(&scratch, "a.gif", &[(10, 5), (20, 5)], gif::Repeat::Infinite);
+    for sides in [6..8, 8..10, 6..10] {
+        let mut bytes = scratch.read("a.gif");
+        bytes[sides.clone()].fill(0);
+        fs::write(scratch.path("none.gif"), bytes).unwrap();
+        let run = scratch.run(&["compare", "none.gif", "none.gif", "--html", "o.html", "--diff", "o.png"]);
+        assert_eq!(run.code, Some(6), "{sides:?}: {}", run.stderr);
+        assert!(run.stderr.contains("`none.gif`") && run.stderr.contains("no pixels"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_page_does_not_replace_a_picture_of_the_folders() {
+    let scratch = Scratch::new();
+    fs::create_dir_all(scratch.path("f/g")).unwrap();
+    gif(&scratch, "f/g/a.gif", &[(10, 5)], gif::Repeat::Infinite);
+    let before = scratch.read("f/g/a.gif");
+    for page in ["f/g/a.gif", "f/../f/g/a.gif"] {
+        let run = scratch.run(&["compare", "f", "f", "--html", page]);
+        assert_eq!(run.code, Some(2), "{page}: {}", run.stderr);
+        assert_eq!(scratch.read("f/g/a.gif"), before, "{page}");
+    }
+    scratch.succeed(&["compare", "f", "f", "--html", "f/g/a.html"]);
+}

@@ -243,3 +243,31 @@ fn a_large_cloth_under_any_limit_waits_for_no_thread() {
     }
     assert_eq!(codes, BTreeSet::from([Some(0), Some(3), Some(6)]));
 }
+
+/// Those of its help and of its refusals too, which need no more than the arguments.
+#[test]
+fn a_file_beyond_the_limit_is_a_failed_write_of_every_text() {
+    let scratch = Scratch::new();
+    for (arguments, code) in [
+        ("--help > out", 6),
+        ("--version > out", 6),
+        ("help render > out", 6),
+        ("man > out", 6),
+        ("nonsense 2> out", 2),
+    ] {
+        let run = run_in(&scratch, "ulimit -f 0", arguments);
+        assert_eq!(run.code, Some(code), "{arguments}: {}", run.stderr);
+        assert!(arguments.contains("2>") || run.stderr.contains("standard output"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn the_environment_does_not_make_stacks_too_small_or_too_large() {
+    let scratch = Scratch::new();
+    let arguments = "animate small.json out.apng --frames 0..3 --size 64x64 --threads 3";
+    for size in ["0", "99999999999999"] {
+        let run = run_in(&scratch, &format!("export RUST_MIN_STACK={size}"), arguments);
+        assert_eq!(run.code, Some(0), "{size}: {}", run.stderr);
+        assert!(!run.stderr.contains("threads could be started"), "{size}: {}", run.stderr);
+    }
+}

@@ -4,6 +4,8 @@
 use std::ffi::OsStr;
 use std::fs;
 
+use drape::output::png::{self, Effort};
+
 use crate::scratch::{Run, SMALL, Scratch};
 
 /// Escape sequences that clear and colour a terminal, a forged line, a control character beyond ASCII, ends of lines
@@ -111,4 +113,40 @@ fn a_name_that_is_no_text_is_shown_as_far_as_it_can() {
     let run: Run = command.arg(OsStr::from_bytes(b"no\xff\x1b.json")).output().unwrap().into();
     assert_eq!(run.code, Some(6), "{}", run.stderr);
     assert_harmless("not UTF-8", &run);
+}
+
+#[test]
+fn lines_of_results_are_those_of_the_program() {
+    let scratch = Scratch::new();
+    fs::create_dir_all(scratch.path("a")).unwrap();
+    fs::create_dir_all(scratch.path("b")).unwrap();
+    let (picture, broken) = (format!("{NAME}.png"), format!("{NAME}.gif"));
+    let drawn = |name: &str| {
+        scratch.succeed(&["render", "small.json", name, "--frame", "0", "--size", "8x8", "-q"]);
+    };
+    for name in [&format!("a/{picture}"), &format!("b/{picture}"), "a/only.png"] {
+        drawn(name);
+    }
+    for name in [format!("a/{broken}"), format!("b/{broken}"), format!("b/{NAME}")] {
+        fs::write(scratch.path(&name), "no picture").unwrap();
+    }
+    drawn(&format!("b/{NAME}other.png"));
+    let run = scratch.run(&["compare", "a", "b"]);
+    assert_harmless("compare", &run);
+    assert_eq!((run.code, run.stdout.iter().filter(|&&byte| byte == b'\n').count()), (Some(6), 5));
+
+    drawn("a.png");
+    let pixels = png::read(&scratch.path("a.png")).unwrap();
+    let rgb: Vec<u8> = pixels.rgba.iter().flat_map(|pixel| pixel[..3].to_vec()).collect();
+    let mut texts = png::texts(&scratch.read("a.png")).unwrap();
+    for (_, text) in
+        texts.iter_mut().filter(|(keyword, _)| keyword == "drape:version" || keyword == "drape:state")
+    {
+        text.push_str("\nequal\nerror: forged");
+    }
+    fs::write(scratch.path("a.png"), png::encode_with(8, 8, &rgb, Effort::Small, &texts).unwrap()).unwrap();
+    let run = scratch.run(&["verify", "a.png"]);
+    assert_harmless("verify", &run);
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert_eq!((run.code, text.lines().any(|line| line == "equal")), (Some(1), false), "{text}");
 }

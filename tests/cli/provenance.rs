@@ -52,6 +52,31 @@ fn an_animation_with_another_time_or_picture_differs() {
 }
 
 #[test]
+fn an_animation_that_ends_differs_from_one_that_is_shown_for_ever() {
+    let scratch = Scratch::new();
+    scratch.succeed(&[
+        "animate",
+        "small.json",
+        "a.gif",
+        "--size",
+        "16x16",
+        "--frames",
+        "0..4",
+        "--fps",
+        "30",
+    ]);
+    assert_eq!(scratch.run(&["verify", "a.gif"]).code, Some(0));
+    let mut bytes = scratch.read("a.gif");
+    // How often all pictures are shown, 0 for ever.
+    let again = place(&bytes, b"NETSCAPE2.0\x03\x01") + 13;
+    bytes[again] = 2;
+    fs::write(scratch.path("a.gif"), bytes).unwrap();
+    let run = scratch.run(&["verify", "a.gif"]);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("2 times instead of for ever"), "{}", run.stderr);
+}
+
+#[test]
 fn nothing_of_the_machine_is_in_a_file_unless_it_is_asked_for() {
     let scratch = Scratch::new();
     fs::create_dir(scratch.path("secret-folder")).unwrap();

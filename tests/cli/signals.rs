@@ -212,3 +212,20 @@ fn a_command_that_is_to_outlive_its_terminal_does() {
     long.signal("-TERM");
     assert_eq!(long.end().status.code(), Some(143));
 }
+
+/// More than a pipe holds, in one message.
+#[test]
+fn a_signal_and_the_time_limit_end_a_command_whose_messages_nobody_reads() {
+    let scratch = Scratch::new();
+    let name = "x".repeat(100_000);
+    for (limit, code) in [("1000", 143), ("0.2", 6)] {
+        let mut command = scratch.command(&["render", &name, "--time-limit", limit]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
+        let mut long = Long(Some(child));
+        assert!(long.is_running_after(Duration::from_millis(500)), "its message was read");
+        if code == 143 {
+            long.signal("-TERM");
+        }
+        assert_eq!(long.end().status.code(), Some(code), "{limit}");
+    }
+}

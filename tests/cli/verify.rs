@@ -264,3 +264,18 @@ fn a_picture_without_its_scene_needs_the_file() {
     let piped: Run = scratch.command(&["verify", "a.png", "-"]).stdin(input).output().unwrap().into();
     assert_eq!(piped.code, Some(0), "{}", piped.stderr);
 }
+
+#[test]
+fn what_is_said_twice_is_damaged() {
+    for keyword in ["drape:arguments", "drape:picture", "drape:version"] {
+        let scratch = drawn(&[]);
+        doctor(&scratch, |_, texts| {
+            let mut other = texts.iter().find(|(known, _)| known == keyword).unwrap().clone();
+            other.1 = other.1.replacen("12", "13", 1);
+            texts.insert(0, other);
+        });
+        let run = scratch.run(&["verify", "a.png"]);
+        assert_eq!(run.code, Some(6), "{keyword}: {}", run.stderr);
+        assert!(run.stderr.contains(&format!("`{keyword}` twice")), "{}", run.stderr);
+    }
+}

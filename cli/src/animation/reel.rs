@@ -76,8 +76,15 @@ impl Reel {
     /// The next picture; nothing after the last.
     ///
     /// # Errors
-    /// [`Kind::Io`] when it cannot be decoded.
+    /// [`Kind::Io`] when it cannot be decoded or has no pixels, which the format of a GIF allows.
     pub(crate) fn next(&mut self) -> Result<Option<Shown>> {
+        match self.decoded()? {
+            Some(shown) if shown.pixels.rgba.is_empty() => Err(failed(&self.name, &"it has no pixels")),
+            next => Ok(next),
+        }
+    }
+
+    fn decoded(&mut self) -> Result<Option<Shown>> {
         match &mut self.pictures {
             Pictures::Still(picture) => Ok(picture.take().map(|pixels| Shown { pixels, delay: None })),
             Pictures::Moving(frames) => {

@@ -17,6 +17,7 @@ use crate::session::{Session, json_failed};
 use drape::error::{Error, Kind, Result};
 use drape::scene::{Cloth, SEEN, Scene};
 use drape_lab::page::short;
+use drape_lab::printable;
 use drape_lab::stability_map::extremes::{self, Row};
 use drape_lab::stability_map::range::Values;
 use drape_lab::stability_map::{Axes, Column, Map, page};
@@ -206,7 +207,7 @@ fn text(map: &Map, rows: &[Row], index: &Path) -> String {
         "tried in motion",
         "at worst",
         extremes::headline(rows),
-        index.display(),
+        printable::line(&index.display().to_string()),
     )
 }
 

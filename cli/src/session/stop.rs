@@ -170,20 +170,23 @@ impl Watched {
         let error = reason.error("no file is left incomplete");
         let code = i32::from(error.kind.exit_code());
         last_words(ui, error);
-        // What fails in the command because of the removal is not told any more.
-        let _silence = io::stderr().lock();
         leftovers::remove();
         low_level::exit(code);
     }
 }
 
 /// Prints an error, as far as that can be done in a short time: nobody may read standard error, or the lock on it
-/// may be held by a thread that waits for its reader.
+/// may be held by a thread that waits for its reader. Nothing is printed behind it: what fails in the command because
+/// its files are removed is not told.
 fn last_words(ui: Ui, error: Error) {
     let (done, printed) = channel();
     let print = move || {
         ui.error(&error);
+        let _silence = io::stderr().lock();
         let _ = done.send(());
+        loop {
+            thread::park();
+        }
     };
     let printer = spawn::builder().and_then(|thread| thread.spawn(print));
     if printer.is_ok() {
@@ -229,6 +232,12 @@ pub(crate) fn exit_without_memory() {
     let _ = flag::register_conditional_shutdown(SIGABRT, code, Arc::new(AtomicBool::new(true)));
 }
 
+/// Has a file that grows beyond the limit of the system be a failed write. Where that cannot be had, the signal ends the
+/// process.
+pub(crate) fn fail_writes_beyond_limit() {
+    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
+
 /// Has `signal` hold the number of a signal that arrives.
 fn catch(signal: &Arc<AtomicUsize>) -> io::Result<()> {
     for number in ENDING {
@@ -238,8 +247,7 @@ fn catch(signal: &Arc<AtomicUsize>) -> io::Result<()> {
         }
         flag::register_usize(number, Arc::clone(signal), usize::try_from(number).unwrap_or_default())?;
     }
-    // A file that grows beyond the limit of the system is a failed write then.
-    flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
+    Ok(())
 }
 
 fn second_ends() -> io::Result<()> {

@@ -23,15 +23,11 @@ pub(crate) fn start(asked: usize, session: &Session) -> Result<()> {
     let room = halves.take_while(|&count| count > 0).find(|&count| has_room(count)).unwrap_or(0);
     let count = startable(room);
     if count == asked {
-        return ThreadPoolBuilder::new().num_threads(asked).build_global().map_err(|e| failed(&e));
+        return pool(asked).build_global().map_err(|e| failed(&e));
     }
     // The present thread is one of them, which needs no start.
     let count = count.max(1);
-    ThreadPoolBuilder::new()
-        .num_threads(count)
-        .use_current_thread()
-        .build_global()
-        .map_err(|e| failed(&e))?;
+    pool(count).use_current_thread().build_global().map_err(|e| failed(&e))?;
     if count < asked {
         let message = format!("only {count} of {asked} threads could be started");
         session
@@ -41,9 +37,13 @@ pub(crate) fn start(asked: usize, session: &Session) -> Result<()> {
     Ok(())
 }
 
+fn pool(count: usize) -> ThreadPoolBuilder {
+    ThreadPoolBuilder::new().num_threads(count).stack_size(STACK)
+}
+
 /// Whether there is memory for the stacks of `count` more threads and three times as much for what they do.
 fn has_room(count: usize) -> bool {
-    check_available(4 * STACK * count as u64, "threads").is_ok()
+    check_available(4 * (STACK * count) as u64, "threads").is_ok()
 }
 
 /// Whether the present thread does all parallel work. Another thread that has such work waits while this one does

@@ -13,6 +13,7 @@ use super::verdict::{shown, verdict};
 use crate::animation::reel::ENDINGS;
 use drape::error::{Error, Kind, Result};
 use drape_lab::page;
+use drape_lab::printable::line;
 
 /// How the pictures of two folders differ.
 #[derive(Serialize)]
@@ -46,15 +47,15 @@ impl Folders {
         let mut text = String::new();
         for comparison in &self.pictures {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "{}: {}", comparison.b, comparison.line());
+            let _ = writeln!(text, "{}: {}", line(&comparison.b), comparison.line());
         }
-        text.extend(
-            self.unreadable.iter().map(|Unreadable { name, why }| format!("{name}: not compared: {why}\n")),
-        );
-        text.extend(self.only_in_a.iter().map(|name| format!("{name}: only in A\n")));
-        text.extend(self.only_in_b.iter().map(|name| format!("{name}: only in B\n")));
+        for Unreadable { name, why } in &self.unreadable {
+            let _ = writeln!(text, "{}: not compared: {}", line(name), line(why));
+        }
+        text.extend(self.only_in_a.iter().map(|name| format!("{}: only in A\n", line(name))));
+        text.extend(self.only_in_b.iter().map(|name| format!("{}: only in B\n", line(name))));
         if !self.not_compared.is_empty() {
-            text += &format!("not pictures, and not compared: {}\n", self.not_compared.join(", "));
+            text += &format!("not pictures, and not compared: {}\n", line(&self.not_compared.join(", ")));
         }
         text
     }

@@ -95,6 +95,11 @@ fn compare_folders(args: &Args, rules: &Rules<'_>, session: &Session) -> Result<
     if in_a.is_empty() && in_b.is_empty() && unread().next().is_none() {
         return Err(Error::new(Kind::Nothing, "neither folder contains a picture"));
     }
+    let compared: Vec<PathBuf> = [(&args.expected, &in_a), (&args.actual, &in_b)]
+        .into_iter()
+        .flat_map(|(folder, names)| names.iter().map(|name| folder.join(name)))
+        .collect();
+    outputs::check(&compared, args.html.as_deref().map(|path| (path, Content::Text)))?;
     let mut text = page::head("Comparison");
     let mut folders = Folders {
         pictures: Vec::new(),

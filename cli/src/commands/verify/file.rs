@@ -56,7 +56,7 @@ impl File {
     pub(super) fn seen(&self) -> Result<AsSeen> {
         let mut pictures = self.pictures()?;
         let (mut still, mut seen) = (StateHash::default(), Seen::default());
-        let (moves, mut count, mut size) = (pictures.moves(), 0, [0; 2]);
+        let (moves, plays, mut count, mut size) = (pictures.moves(), pictures.plays, 0, [0; 2]);
         while let Some(Shown { pixels, delay }) = pictures.next()? {
             count += 1;
             size = [pixels.width, pixels.height];
@@ -67,7 +67,7 @@ impl File {
             }
         }
         let hash = hex(if moves { seen.hash() } else { still.finish() });
-        Ok(AsSeen { hash, pictures: count, size })
+        Ok(AsSeen { hash, pictures: count, plays, size })
     }
 }
 
@@ -76,6 +76,8 @@ pub(super) struct AsSeen {
     /// The hash of its pictures, and of their times.
     pub(super) hash: String,
     pub(super) pictures: u64,
+    /// How often an animation is shown; 0 for ever.
+    pub(super) plays: u32,
     /// Width and height in pixels.
     pub(super) size: [u32; 2],
 }

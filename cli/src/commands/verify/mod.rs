@@ -46,6 +46,9 @@ pub(crate) struct Args {
 /// Most differences between two scenes that are told.
 const MOST_TOLD: usize = 5;
 
+/// How often every animation that `drape` writes is shown.
+const ENDLESS: &str = "endless";
+
 /// Checks, makes again, compares; a difference is an error of [`Kind::Difference`].
 pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
     let file = File::read(&args.picture)?;
@@ -167,13 +170,16 @@ fn load(path: &Path, said: &Provenance, session: &Session) -> Result<Scene> {
     Ok(loaded.scene)
 }
 
-/// Checks that the file has the size of the scene's picture, and an animation as many pictures as moments.
+/// Checks that the file has the size of the scene's picture, and that an animation has as many pictures as moments and
+/// is shown for ever.
 fn check_extent(seen: &AsSeen, moments: &Moments, size: [u32; 2], report: &mut Report) {
     let [expected, there] = [size, seen.size].map(|[width, height]| format!("{width} x {height}"));
     report.check("size", &expected, &there, || format!("it has {there} pixels instead of {expected}"));
     if let Moments::Many(schedule, _) = moments {
         let [there, shown] = [seen.pictures, schedule.count()].map(|count| count.to_string());
         report.check("pictures", &shown, &there, || format!("it has {there} pictures instead of {shown}"));
+        let plays = if seen.plays == 0 { ENDLESS.to_owned() } else { seen.plays.to_string() };
+        report.check("plays", ENDLESS, &plays, || format!("it is shown {plays} times instead of for ever"));
     }
 }
 

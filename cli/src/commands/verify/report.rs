@@ -5,6 +5,7 @@ use serde::Serialize;
 use drape::error::{Error, Kind, Result};
 use drape::output::provenance::{Arguments, Provenance};
 use drape::version::VERSION;
+use drape_lab::printable::line;
 
 /// One thing that the file says, and what was found.
 #[derive(Serialize)]
@@ -84,14 +85,15 @@ impl Report {
 
     /// The report as lines.
     pub(super) fn text(&self) -> String {
-        let Self { version, program, .. } = self;
+        let Self { program, .. } = self;
+        let version = line(&self.version);
         let mut text = match self.is_of_another_version() {
             true => format!("version   written by {version}, verified by {program}\n"),
             false => format!("version   {version}\n"),
         };
         for Check { what, equal, said, found } in &self.checks {
-            let found = if *equal { "equal".to_owned() } else { format!("differs, found {found}") };
-            text += &format!("{what:<9} {said} {found}\n");
+            let found = if *equal { "equal".to_owned() } else { format!("differs, found {}", line(found)) };
+            text += &format!("{what:<9} {} {found}\n", line(said));
         }
         text + if self.equal { "equal\n" } else { "" }
     }
