@@ -22,6 +22,8 @@ pub struct Camera {
     pub view_projection: Columns,
     /// `u_cam_pos`: the eye in world space, in metres.
     pub position: [f32; 3],
+    /// The distances of the near and the far plane, in metres.
+    pub planes: [f64; 2],
 }
 
 impl Camera {
@@ -49,7 +51,16 @@ impl Camera {
         }
         let [width, height] = scene.render.size.map(f64::from);
         let product = projection(settings, width / height) * view(&eye, &target, &up);
-        Ok(Self { view_projection: columns(&product), position: [eye.x, eye.y, eye.z].map(round) })
+        let position = [eye.x, eye.y, eye.z].map(round);
+        Ok(Self { view_projection: columns(&product), position, planes: [settings.near, settings.far] })
+    }
+
+    /// The distance along the view axis, in metres, of what has a window depth; infinite for 1, where nothing was drawn.
+    /// It is the inverse of [`projection`]. Depths below 1 are multiples of 2⁻²⁴ there, so at a distance z it knows
+    /// `z² (far - near) / (far near)` times as much.
+    pub fn distance(&self, depth: f32) -> f32 {
+        let [near, far] = self.planes;
+        if depth == 1.0 { f32::INFINITY } else { round(near * far / (far - f64::from(depth) * (far - near))) }
     }
 }
 

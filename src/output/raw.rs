@@ -5,7 +5,7 @@ pub fn points(x: &[f64], y: &[f64], z: &[f64]) -> Vec<u8> {
     x.iter().zip(y).zip(z).flat_map(|((x, y), z)| [*x, *y, *z]).flat_map(f64::to_le_bytes).collect()
 }
 
-/// Depths as binary32.
+/// Depths, or distances, as binary32.
 pub fn depths(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }

@@ -107,6 +107,13 @@ impl Renderer {
         Picture { width, height, rgb, depth, ids, stats }
     }
 
+    /// The distances along the view axis, in metres, of window depths of [`Renderer::draw`] with the same arguments;
+    /// infinite where nothing was drawn.
+    pub fn metres(&self, depth: &[f32], points: &Points, options: &Options) -> Vec<f32> {
+        let camera = self.programs.camera(&self.objects(points, options, Mesh::default()));
+        depth.iter().map(|&depth| camera.distance(depth)).collect()
+    }
+
     /// Draws into a framebuffer made by [`Renderer::framebuffer`], which is cleared first.
     pub fn draw_into(&self, framebuffer: &mut Framebuffer, points: &Points, options: &Options) -> Stats {
         self.draw_with(framebuffer, points, options, |framebuffer, calls| {

@@ -113,6 +113,12 @@ fn depth_and_ids_have_a_number_a_pixel() {
         assert_eq!(*id == 0, *depth == 1.0, "background is far and has no id");
         assert!((0.0..=1.0).contains(depth));
     }
+    scratch.succeed(&[&["render", "small.json", "--depth-metres", "m"], &size[..]].concat());
+    let metres = words("m").into_iter().map(f32::from_le_bytes);
+    for (depth, metres) in depths.iter().zip(metres) {
+        assert_eq!(*depth == 1.0, metres == f32::INFINITY);
+        assert!(metres >= 0.01, "the near plane");
+    }
     let objects: std::collections::BTreeSet<u32> = ids.iter().map(|id| id >> 24).collect();
     assert!(objects.contains(&0) && objects.contains(&2), "background and ball are seen: {objects:?}");
 }

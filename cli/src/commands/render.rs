@@ -43,6 +43,10 @@ pub(crate) struct Args {
     /// Write the depth of each pixel to this file: f32 little-endian, top row first (`-` for standard output)
     #[arg(long, value_name = "FILE", value_parser = output())]
     depth: Option<PathBuf>,
+    /// Write the distance along the view axis of what each pixel shows to this file, in metres, infinite for the
+    /// background: f32 little-endian, top row first (`-` for standard output)
+    #[arg(long, value_name = "FILE", value_parser = output())]
+    depth_metres: Option<PathBuf>,
     /// Write what each pixel shows to this file: object << 24 | (triangle + 1), or 0 for the background; u32
     /// little-endian, top row first (`-` for standard output)
     #[arg(long, value_name = "FILE", value_parser = output())]
@@ -52,11 +56,11 @@ pub(crate) struct Args {
     stats: bool,
     /// Draw the picture N times after a warm-up and print the times as JSON; no picture is written
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..),
-          conflicts_with_all = ["picture", "depth", "ids", "stats"])]
+          conflicts_with_all = ["picture", "depth", "depth_metres", "ids", "stats"])]
     bench: Option<u32>,
     /// Print the hash of the picture, over the bytes of its red, green and blue from the top row on; no picture is
     /// written
-    #[arg(long, conflicts_with_all = ["picture", "depth", "ids", "stats", "bench"])]
+    #[arg(long, conflicts_with_all = ["picture", "depth", "depth_metres", "ids", "stats", "bench"])]
     hash: bool,
 }
 
@@ -115,6 +119,10 @@ pub(crate) fn run(args: &Args, session: &Session) -> Result<()> {
         let textures = args.render.texture_hash(scene, &renderer);
         let provenance = Provenance { textures, ..args.render.provenance(&loaded, arguments) };
         let provenance = provenance.of_picture(simulation.state_hash(), picture.hash());
+        if let Some(path) = &args.depth_metres {
+            let metres = renderer.metres(&picture.depth, simulation.positions(), &options);
+            atomic::write(path, &raw::depths(&metres))?;
+        }
         args.write(&path, &picture, &provenance)?;
         args.finish(&path, &picture, &simulation, session)?;
     }
@@ -158,14 +166,14 @@ impl Args {
         }
         outputs::check_ending(picture, "png")?;
         outputs::check_stdout(self.fills_stdout(), self.stats || session.ui.json)?;
-        let raw = [&self.depth, &self.ids].into_iter().flatten().map(PathBuf::as_path);
+        let raw = [&self.depth, &self.depth_metres, &self.ids].into_iter().flatten().map(PathBuf::as_path);
         let all = [picture].into_iter().chain(raw).map(|path| (path, Content::Binary));
         let inputs = [self.scene.inputs(), self.render.inputs(scene), self.state.inputs().collect()].concat();
         outputs::check(&inputs, all.chain(self.state.outputs()))
     }
 
     fn fills_stdout(&self) -> bool {
-        outputs::takes_stdout(&[&self.picture, &self.depth, &self.ids])
+        outputs::takes_stdout(&[&self.picture, &self.depth, &self.depth_metres, &self.ids])
     }
 
     fn write(&self, path: &Path, picture: &Picture, provenance: &Provenance) -> Result<()> {

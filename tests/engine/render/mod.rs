@@ -2,5 +2,6 @@
 
 mod camera;
 mod mesh;
+mod metres;
 mod renderer;
 mod range;
