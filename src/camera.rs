@@ -56,7 +56,7 @@ impl Camera {
     }
 
     /// The distance along the view axis, in metres, of what has a window depth; infinite for 1, where nothing was drawn.
-    /// It is the inverse of [`projection`]. Depths below 1 are multiples of 2⁻²⁴ there, so at a distance z it knows
+    /// It is the inverse of the projection. Depths below 1 are multiples of 2⁻²⁴ there, so at a distance z it knows
     /// `z² (far - near) / (far near)` times as much.
     pub fn distance(&self, depth: f32) -> f32 {
         let [near, far] = self.planes;
