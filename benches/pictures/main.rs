@@ -1,7 +1,7 @@
 //! How long pictures take: every shader, one and four samples, cloths and pictures of growing size.
 //!
 //! `cargo bench --bench pictures` prints a table for one thread and one for two. A word after `--` chooses the
-//! rows that hold it, `--level=avx2` or `--level=baseline` allows no wider vectors, and `--test` only shows that
+//! rows that hold it, `--threads=N` asks for one table, `--level=avx2` or `--level=baseline` allows no wider vectors, and `--test` only shows that
 //! it runs; `--plot=FILE` also draws how times grow, for `docs/speed.md`. The last column tells whether two tables are of the same pictures.
 
 #![expect(
@@ -43,11 +43,12 @@ fn main() {
     if let Some(threads) = value("--threads=") {
         let filter = arguments.iter().find(|argument| !argument.starts_with("--"));
         let test = arguments.iter().any(|argument| argument == "--test");
+        rayon::ThreadPoolBuilder::new().num_threads(threads.parse().unwrap()).build_global().unwrap();
         return table(threads, filter.map_or("", String::as_str), test);
     }
     let tables = ["1", "2"].map(|threads| {
         let mut child = Command::new(std::env::current_exe().unwrap());
-        child.args(&arguments).arg(format!("--threads={threads}")).env("RAYON_NUM_THREADS", threads);
+        child.args(&arguments).arg(format!("--threads={threads}"));
         let output = child.stderr(Stdio::inherit()).output().unwrap();
         assert!(output.status.success());
         let table = String::from_utf8(output.stdout).unwrap();

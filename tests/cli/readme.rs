@@ -25,8 +25,14 @@ const PAGES: [(&str, usize); 6] = [
 
 /// Pages with commands that other tests run or that only print times: `docs.rs`, `findings.rs` and `restless.rs` hold
 /// their figures.
-const ELSEWHERE: [&str; 5] =
-    ["docs/cluster.md", "docs/findings.md", "docs/restless.md", "docs/speed.md", "docs/stability.md"];
+const ELSEWHERE: [&str; 6] = [
+    "docs/cluster.md",
+    "docs/findings.md",
+    "docs/restless.md",
+    "docs/speed.md",
+    "docs/speed-history.md",
+    "docs/stability.md",
+];
 
 fn text(page: &str) -> String {
     fs::read_to_string(repository().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"))
