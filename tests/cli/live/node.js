@@ -1,19 +1,14 @@
 // Runs the engine of the live page in Node: `node node.js PAGE SCENE...` prints the hashes of all frames and pictures.
 'use strict';
 
-const { readFileSync } = require('node:fs');
-const { gunzipSync } = require('node:zlib');
+const { engine } = require('./engine.js');
 
 const [page, ...scenes] = process.argv.slice(2);
-const html = readFileSync(page, 'utf8');
-const script = (id) => html.split(`id="${id}">`)[1].split('</script>')[0];
-const wasm = gunzipSync(Buffer.from(script('wasm'), 'base64'));
-const wasm_bindgen = new Function(`${script('worker')}\nreturn wasm_bindgen;`)();
+const wasm_bindgen = engine(page);
 
 const FRAMES = 90;
 const SIZE = '320x250';
 
-wasm_bindgen.initSync({ module: wasm });
 const shaders = JSON.parse(wasm_bindgen.Page.choices()).keys['material.shader'].map(([name]) => name);
 const found = {};
 for (const scene of scenes) {

@@ -63,21 +63,26 @@ fn simulated(name: &str) -> Native {
     Native { states, pictures }
 }
 
-#[test]
-fn node_computes_the_bits_of_the_native_program() {
-    let Some(page) = built() else { return };
-    let script = crate::repository::path("tests/cli/live/node.js");
-    let run = Command::new("node").arg(script).arg(page).args(SCENES).output();
-    let run = match run {
+/// What a script of this folder prints that runs the engine of the page in Node; nothing where that cannot be.
+fn in_node(script: &str, arguments: &[&str]) -> Option<Vec<u8>> {
+    let page = built()?;
+    let script = crate::repository::path(&format!("tests/cli/live/{script}"));
+    let run = match Command::new("node").arg(script).arg(page).args(arguments).output() {
         Ok(run) => run,
         Err(error) => {
             assert!(std::env::var_os("DRAPE_REQUIRE_WEB").is_none(), "node: {error}");
             println!("skipped: no node on the PATH");
-            return;
+            return None;
         }
     };
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let found: Value = serde_json::from_slice(&run.stdout).unwrap();
+    Some(run.stdout)
+}
+
+#[test]
+fn node_computes_the_bits_of_the_native_program() {
+    let Some(printed) = in_node("node.js", &SCENES) else { return };
+    let found: Value = serde_json::from_slice(&printed).unwrap();
     for (name, native) in native() {
         let states: Vec<&str> =
             found[name]["states"].as_array().unwrap().iter().flat_map(Value::as_str).collect();
@@ -88,6 +93,15 @@ fn node_computes_the_bits_of_the_native_program() {
             assert_eq!(pictures[shader].as_str(), Some(hash.as_str()), "{name} with {shader}");
         }
     }
+}
+
+#[test]
+fn node_computes_the_hashes_of_every_platform() {
+    let file = crate::repository::path("tests/cli/everywhere.txt");
+    let Some(printed) = in_node("everywhere.js", &[file.to_str().unwrap()]) else { return };
+    let (printed, expected) = (String::from_utf8(printed).unwrap(), std::fs::read_to_string(file).unwrap());
+    let differ: Vec<_> = printed.lines().zip(expected.lines()).filter(|(a, b)| a != b).collect();
+    assert!(differ.is_empty() && printed == expected, "{differ:#?}");
 }
 
 #[test]
