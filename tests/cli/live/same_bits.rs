@@ -64,6 +64,7 @@ fn simulated(name: &str) -> Native {
 }
 
 /// What a script of this folder prints that runs the engine of the page in Node; nothing where that cannot be.
+#[allow(clippy::print_stdout, reason = "a test that did not run must say so")]
 fn in_node(script: &str, arguments: &[&str]) -> Option<Vec<u8>> {
     let page = built()?;
     let script = crate::repository::path(&format!("tests/cli/live/{script}"));
