@@ -19,11 +19,17 @@ use fearless_simd::{f64x4, mask64x4};
 use super::sorted::{LANES, Sorted};
 use super::surroundings::{Places, RANGES, Surroundings};
 
+/// How many pairs a point may find on average. A cloth that keeps its distance stays far below; one whose points are all
+/// close to each other would have as many pairs as the square of their number.
+const MOST: usize = 64;
+
 /// What the search in some cells found.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidates {
-    /// The pairs of points, in any order.
+    /// The pairs of points, in any order; at most [`MOST`] for each point that looks for others, on average.
     pub(super) pairs: Vec<[u32; 2]>,
+    /// Whether there are more, which are left out.
+    pub(super) is_full: bool,
     /// How many points are in the cells around each that is searched, all together.
     pub(super) around: u64,
 }
@@ -33,7 +39,8 @@ impl Candidates {
     #[inline(always)]
     pub(super) fn find<S: Simd>(&mut self, simd: S, sorted: &Sorted, mut cells: Range<usize>, reach: f64) {
         self.pairs.clear();
-        self.around = 0;
+        (self.is_full, self.around) = (false, 0);
+        let most = MOST * sorted.points(cells.clone());
         let (x, order, reach) = (sorted.positions(), &sorted.order[..], f64x4::splat(simd, reach));
         let mut surroundings = Surroundings::before(sorted, cells.start);
         while !cells.is_empty() {
@@ -43,6 +50,10 @@ impl Candidates {
                 self.around += around.pairs();
                 let ([start, end], is_long) = (around.own, around.is_long());
                 for place in start..end {
+                    if self.pairs.len() > most {
+                        self.is_full = true;
+                        break;
+                    }
                     let center = Center::new(simd, x, place, reach);
                     let ranges = around.ranges(place);
                     self.note_first(order, place, &ranges, center.first_close(simd, &ranges));

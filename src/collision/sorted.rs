@@ -5,6 +5,8 @@
 //! others that their numbers are cut off several may have the same number, and the order of the grid is not that of the
 //! numbers. Then points are sorted anew, which is seldom.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::cell_number::{END, number};
@@ -144,6 +146,11 @@ impl Sorted {
     /// How many cells have a point.
     pub(super) fn cells(&self) -> usize {
         self.cells.len() - AFTER
+    }
+
+    /// How many points are in `cells`.
+    pub(super) fn points(&self, cells: Range<usize>) -> usize {
+        self.cells[cells.end].before.less(self.cells[cells.start].before).points() as usize
     }
 
     /// The components of the positions, and [`LANES`] numbers of any value after each: all of one length.
