@@ -5,7 +5,7 @@ use nalgebra::{Matrix4, Vector3};
 use crate::{
     cloth::grid::{Grid, start_of},
     error::{Error, Kind, Result},
-    math::{sin_cos_degrees, tan},
+    math::{sin_cos_degrees, tan, unit},
     scene::{Camera as Settings, Cloth, Collider, Scene, Vec3},
 };
 
@@ -234,10 +234,6 @@ fn start_mean(cloth: &Cloth) -> Result<Vec3> {
 fn default_target(cloth: &Cloth) -> Result<Vec3> {
     let mean = start_mean(cloth)?;
     Ok(Vec3::new(mean.x, mean.y / 2.0, mean.z))
-}
-
-fn unit(v: Vec3) -> Vec3 {
-    v / v.dot(&v).sqrt()
 }
 
 fn columns(matrix: &Matrix4<f64>) -> Columns {

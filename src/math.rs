@@ -9,8 +9,19 @@ use std::ops::Mul;
 
 use nalgebra::Vector3;
 
-/// A point or direction in metres, world space, y up.
+/// A point or direction in metres, world space, y up. Its `norm` and `normalize` need the feature `std` of `nalgebra`,
+/// which the tests have and the engine has not; [`length`] and [`unit`] are the engine's.
 pub type Vec3 = Vector3<f64>;
+
+/// The length of `v`, in its unit.
+pub fn length(v: Vec3) -> f64 {
+    v.dot(&v).sqrt()
+}
+
+/// The direction of `v`, which is not zero, as a vector of length 1.
+pub fn unit(v: Vec3) -> Vec3 {
+    v / length(v)
+}
 
 /// Sine of `x` radians; error below 1 ulp.
 pub fn sin(x: f64) -> f64 {

@@ -88,17 +88,16 @@ impl Texture {
         })
     }
 
-    /// Eight bits widen to sixteen as 257 c, and 257 c / 65535 = c / 255: nothing is rounded twice.
     /// Nothing if there is no memory for the texels.
     fn from_image(image: DynamicImage) -> Option<Self> {
-        let has_alpha = image.color().has_alpha();
-        let transparent = has_alpha && image.to_rgba16().pixels().any(|pixel| pixel[3] != u16::MAX);
-        let image = image.into_rgb16();
         let (width, height) = (image.width() as usize, image.height() as usize);
-        let unit = |sample: u16| f32::from(sample) / 65535.0;
         let mut texels = Vec::new();
         texels.try_reserve_exact(width * height).ok()?;
-        texels.extend(image.pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]));
+        let transparent = if image.color().bytes_per_pixel() == image.color().channel_count() {
+            bytes_to_texels(&image, &mut texels)
+        } else {
+            words_to_texels(image, &mut texels)
+        };
         Some(Self { width, height, texels, transparent, red: OnceLock::new(), packed: OnceLock::new() })
     }
 
@@ -167,6 +166,34 @@ impl Texture {
         }
         Some(packed)
     }
+}
+
+/// Appends the texels of a picture of 8 bits a channel; whether one is transparent.
+fn bytes_to_texels(image: &DynamicImage, texels: &mut Vec<[f32; 4]>) -> bool {
+    let unit = |sample: u8| f32::from(sample) / 255.0;
+    let mut transparent = false;
+    for pixel in image.as_bytes().chunks_exact(image.color().channel_count().into()) {
+        let (rgb, alpha) = match *pixel {
+            [grey] => ([grey; 3], u8::MAX),
+            [grey, alpha] => ([grey; 3], alpha),
+            [r, g, b] => ([r, g, b], u8::MAX),
+            [r, g, b, alpha] => ([r, g, b], alpha),
+            _ => unreachable!("a picture has one to four channels"),
+        };
+        transparent |= alpha != u8::MAX;
+        let [r, g, b] = rgb.map(unit);
+        texels.push([r, g, b, 1.0]);
+    }
+    transparent
+}
+
+/// Appends the texels of any other picture; whether one is transparent.
+fn words_to_texels(image: DynamicImage, texels: &mut Vec<[f32; 4]>) -> bool {
+    let unit = |sample: u16| f32::from(sample) / 65535.0;
+    let has_alpha = image.color().has_alpha();
+    let transparent = has_alpha && image.to_rgba16().pixels().any(|pixel| pixel[3] != u16::MAX);
+    texels.extend(image.into_rgb16().pixels().map(|p| [unit(p[0]), unit(p[1]), unit(p[2]), 1.0]));
+    transparent
 }
 
 /// The channels of a texel with 8 bits each, red lowest; `None` if one is no multiple of 1/255.

@@ -4,6 +4,7 @@
 use crate::cloth::Points;
 use crate::cloth::grid::{self, Grid, Pins};
 use crate::error::Result;
+use crate::math::unit;
 use crate::scene::{Cloth, Collider, Contact, Cuboid, Plane, Scene, SelfCollision, Sphere, Vec3};
 
 /// The code of points that start inside an object.
@@ -148,7 +149,7 @@ impl Start<'_> {
 
     /// Points under a plane, on the side from which its normal points away.
     fn beyond(&self, plane: &Plane, key: String) -> Option<Concern> {
-        let normal = plane.normal / plane.normal.norm();
+        let normal = unit(plane.normal);
         let heights: Vec<f64> = self.free().map(|x| (x - plane.point).dot(&normal)).collect();
         let deepest = heights.iter().copied().fold(0.0, f64::min);
         let under = heights.iter().filter(|height| **height < 0.0).count();

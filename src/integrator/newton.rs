@@ -103,11 +103,12 @@ impl Newton {
         let Model { springs, pins, params } = model;
         let weight = params.weight;
         self.forces.compute(x, springs, weight.into(), work);
-        let (mut squares, forces) = (0.0, self.forces.sum());
+        let (mut squares, forces) = (0.0_f64, self.forces.sum());
         for p in pins.free.iter().cloned().flatten() {
             let force = forces.get(p);
             self.residual.set(p, force - (x.get(p) - self.target.get(p)) * self.matrix.inertia[p]);
-            squares += (force - weight).norm_squared() + weight.norm_squared();
+            let pulled = force - weight;
+            squares += pulled.dot(&pulled) + weight.dot(&weight);
         }
         self.tolerance * squares.sqrt()
     }

@@ -5,6 +5,7 @@
 
 use nalgebra::Vector3;
 
+use crate::math::{length, unit};
 use crate::scene::{Collider, Needs, Vec3};
 use crate::share::share_out;
 
@@ -115,13 +116,9 @@ fn in_plane(n: &Vec3) -> Vec3 {
     unit_or(p, unit_or(Vector3::x() - n * n.x, Vector3::y()))
 }
 
-fn unit(v: Vec3) -> Vec3 {
-    v / v.dot(&v).sqrt()
-}
-
 /// The unit vector of `v`, or `otherwise` when `v` has no direction.
 fn unit_or(v: Vec3, otherwise: Vec3) -> Vec3 {
-    let length = v.dot(&v).sqrt();
+    let length = length(v);
     if length > 0.0 && length.is_finite() { v / length } else { otherwise }
 }
 

@@ -4,7 +4,8 @@
 //! the side of the normal, words on it are readable, and upright for a camera of azimuth 0: up is -z on a floor, +z
 //! on a ceiling, and +y on a wall (any plane steeper than 45 degrees).
 
-use super::{Mesh, in_plane, round, to_f32, unit, upwards};
+use super::{Mesh, in_plane, round, to_f32, upwards};
+use crate::math::unit;
 use crate::scene::{Needs, Plane, Vec3};
 
 /// Length of the sides, in metres.

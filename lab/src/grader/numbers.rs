@@ -5,6 +5,7 @@ use super::mistakes::Mistake;
 use super::states::State;
 use drape::cloth::Points;
 use drape::error::{Kind, Result};
+use drape::math::length;
 use drape::scene::{Cloth, Scene};
 
 /// The most iterations of a fit.
@@ -35,8 +36,8 @@ enum Set {
 pub(super) const NUMBERS: [Number; 6] = [
     Number {
         name: "gravity",
-        of: |scene, _| scene.sim.gravity.norm(),
-        set: Set::Scene(|scene, value| scene.sim.gravity *= value / scene.sim.gravity.norm()),
+        of: |scene, _| length(scene.sim.gravity),
+        set: Set::Scene(|scene, value| scene.sim.gravity *= value / length(scene.sim.gravity)),
     },
     Number {
         name: "cloth.damping",

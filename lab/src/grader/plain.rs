@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use drape::cloth::Points;
 use drape::cloth::springs::SpringKind;
+use drape::math::length;
 use drape::scene::{
     Cloth, Contact, Damping, Integrator, Plane, Precision, Scene, SelfCollision, Sphere, Start, Vec3,
 };
@@ -261,10 +262,6 @@ fn outside_sphere(x: Vec3, last: Vec3, sphere: &Sphere) -> Vec3 {
     }
     let surface = sphere.origin + out * (sphere.radius / l);
     last + (surface - last) * (1.0 - sphere.friction)
-}
-
-fn length(v: Vec3) -> f64 {
-    v.dot(&v).sqrt()
 }
 
 #[cfg(test)]
