@@ -10,7 +10,7 @@ use std::ops::Mul;
 use nalgebra::Vector3;
 
 /// A point or direction in metres, world space, y up. Its `norm` and `normalize` need the feature `std` of `nalgebra`,
-/// which the tests have and the engine has not; [`length`] and [`unit`] are the engine's.
+/// which the tests have and the engine has not; [`length`] and [`unit()`] are the engine's.
 pub type Vec3 = Vector3<f64>;
 
 /// The length of `v`, in its unit.

@@ -159,7 +159,7 @@ fn run(copy: &Path, caught_by: &str) -> (bool, String) {
     let target = match target {
         "engine-unit" => ["--package", "drape", "--lib"].to_vec(),
         "lab-unit" => ["--package", "drape-lab", "--lib"].to_vec(),
-        "cli-unit" => ["--package", "drape-cli", "--bins"].to_vec(),
+        "cli-unit" => ["--package", "drape-cli", "--lib"].to_vec(),
         test => ["--test", test].to_vec(),
     };
     let output = Command::new(env!("CARGO"))

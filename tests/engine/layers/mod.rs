@@ -11,7 +11,7 @@ use imports::Crate;
 const LONGEST: usize = 300;
 
 fn crates() -> [(&'static str, Crate); 3] {
-    ["src/lib.rs", "lab/src/lib.rs", "cli/src/main.rs"]
+    ["src/lib.rs", "lab/src/lib.rs", "cli/src/lib.rs"]
         .map(|root| (root, Crate::read(&crate::repository::path(root))))
 }
 
