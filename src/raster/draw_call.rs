@@ -62,9 +62,7 @@ impl<'a> DrawCall<'a> {
         Self {
             primitives,
             vertex_stage: vertex_stage(count, attributes, vertex_program),
-            fragment_stage: Box::new(move |input, list| {
-                dispatch!(simd => shade_vectors(simd, &fragment_program, input, list));
-            }),
+            fragment_stage: fragment_stage(fragment_program),
         }
     }
 
@@ -80,7 +78,7 @@ impl<'a> DrawCall<'a> {
         Self {
             primitives,
             vertex_stage: vertex_stage(count, attributes, vertex_program),
-            fragment_stage: Box::new(move |input, list| shade::<L, N>((), &fragment_program, input, list)),
+            fragment_stage: fragment_stage_one_by_one::<L, F, N>(fragment_program),
         }
     }
 
@@ -101,4 +99,17 @@ fn vertex_stage<'a, A, V: super::Varyings<f32, N>, const N: usize>(
     program: impl VertexProgram<A, V> + 'a,
 ) -> VertexStage<'a> {
     Box::new(move |viewport, buffer| buffer.fill(count, viewport, &attributes, &program))
+}
+
+// The two kinds of fragment stage are functions of their own so that each program is compiled once, whatever vertex
+// programs it is drawn with.
+
+fn fragment_stage<'a, F: FragmentProgram<N> + 'a, const N: usize>(program: F) -> FragmentStage<'a> {
+    Box::new(move |input, list| dispatch!(simd => shade_vectors(simd, &program, input, list)))
+}
+
+fn fragment_stage_one_by_one<'a, L: Lane<Token = ()>, F: FragmentProgram<N> + 'a, const N: usize>(
+    program: F,
+) -> FragmentStage<'a> {
+    Box::new(move |input, list| shade::<L, N>((), &program, input, list))
 }
