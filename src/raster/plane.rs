@@ -63,9 +63,9 @@ impl<const N: usize> Plane<N> {
         }
     }
 
-    /// The varyings at window positions (x, y).
+    /// The varyings at window positions (x, y), as [`weighted`] has them.
     #[inline(always)]
-    pub(super) fn interpolate<P: Part>(&self, token: P::Token, [x, y]: [P::Double; 2]) -> [P; N] {
+    pub(super) fn interpolate<P: Part>(&self, token: P::Token, [x, y]: [P::Double; 2]) -> Weighted<P, N> {
         let x = x - P::double(token, self.origin[0]);
         let y = y - P::double(token, self.origin[1]);
         let l1 = P::double(token, self.steps[0][0]) * x + P::double(token, self.steps[0][1]) * y;
@@ -84,6 +84,27 @@ impl<const N: usize> Plane<N> {
     }
 }
 
+/// Varyings times their weights.
+#[derive(Clone, Copy)]
+pub(super) struct Weighted<P, const N: usize> {
+    pub(super) sums: [P; N],
+    /// The sum of the weights.
+    pub(super) weight: P,
+}
+
+impl<P: Part, const N: usize> Weighted<P, N> {
+    /// The varyings.
+    #[inline(always)]
+    pub(super) fn varyings(self, token: P::Token) -> [P; N] {
+        let part = P::splat(token, 1.0) / self.weight;
+        let mut varyings = self.sums;
+        for varying in &mut varyings {
+            *varying = *varying * part;
+        }
+        varyings
+    }
+}
+
 /// The varyings where the second and third barycentric coordinates are these, from 1/w and number k of each corner.
 #[inline(always)]
 pub(super) fn weighted<P: Part, const N: usize>(
@@ -91,15 +112,15 @@ pub(super) fn weighted<P: Part, const N: usize>(
     [l1, l2]: [P::Double; 2],
     r: [P; 3],
     varying: impl Fn(usize, usize) -> P,
-) -> [P; N] {
+) -> Weighted<P, N> {
     let l0 = P::double(token, 1.0) - l1 - l2;
     let w0 = P::narrow(l0) * r[0];
     let w1 = P::narrow(l1) * r[1];
     let w2 = P::narrow(l2) * r[2];
-    let w = P::splat(token, 1.0) / (w0 + w1 + w2);
-    let mut result = [w; N];
-    for (k, result) in result.iter_mut().enumerate() {
-        *result = (w0 * varying(0, k) + w1 * varying(1, k) + w2 * varying(2, k)) * w;
+    let weight = w0 + w1 + w2;
+    let mut sums = [weight; N];
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum = w0 * varying(0, k) + w1 * varying(1, k) + w2 * varying(2, k);
     }
-    result
+    Weighted { sums, weight }
 }
