@@ -94,7 +94,7 @@ impl<'a, const N: usize> Interpolator<'a, N> {
     fn plane(&mut self, primitive: Handle) -> &Plane<N> {
         let plane = &mut self.planes[primitive as usize % PLANES];
         if plane.primitive != primitive {
-            *plane = Plane::of(self.input, primitive);
+            plane.set(self.input, primitive);
         }
         // So that it is read from memory, number by number into all lanes. Otherwise the compiler keeps it in vectors,
         // and shuffles each number out of them.

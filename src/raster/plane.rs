@@ -46,20 +46,28 @@ impl<const N: usize> Plane<N> {
     /// That of a triangle.
     #[inline(always)]
     pub(super) fn of(input: &ShadeInput<'_>, primitive: Handle) -> Self {
+        let mut plane = Self::NONE;
+        plane.set(input, primitive);
+        plane
+    }
+
+    /// Becomes that of a triangle. In place: what is made and then copied is read back in larger pieces than it was
+    /// written, and has to wait for all of them.
+    #[inline(always)]
+    pub(super) fn set(&mut self, input: &ShadeInput<'_>, primitive: Handle) {
         let (chunk, index) = unpack(primitive);
         let chunk = &input.chunks[chunk];
-        let Triangle { vertices: [i0, i1, i2], scale, .. } = chunk.triangles[index];
+        let Triangle { vertices, scale, .. } = chunk.triangles[index];
         let corner = |vertex: u32| chunk.corner(vertex, input.vertices).window;
-        let (a, b, c) = (corner(i0), corner(i1), corner(i2));
+        let (a, b, c) = (corner(vertices[0]), corner(vertices[1]), corner(vertices[2]));
         let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
         let step = |gx: f64, gy: f64| [gx * scale, gy * scale];
-        let varyings = |vertex: u32| *chunk.varyings_of::<N>(vertex, input.vertices);
-        Self {
-            primitive,
-            r: [a.r, b.r, c.r],
-            origin: [a.x.into(), a.y.into()],
-            steps: [step(d(c.y, a.y), -d(c.x, a.x)), step(-d(b.y, a.y), d(b.x, a.x))],
-            varyings: [varyings(i0), varyings(i1), varyings(i2)],
+        self.primitive = primitive;
+        self.r = [a.r, b.r, c.r];
+        self.origin = [a.x.into(), a.y.into()];
+        self.steps = [step(d(c.y, a.y), -d(c.x, a.x)), step(-d(b.y, a.y), d(b.x, a.x))];
+        for (varyings, vertex) in self.varyings.iter_mut().zip(vertices) {
+            *varyings = *chunk.varyings_of::<N>(vertex, input.vertices);
         }
     }
 
