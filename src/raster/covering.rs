@@ -64,7 +64,8 @@ impl<P: Part, const N: usize> Covering<P, N> {
                 self.r,
                 #[inline(always)]
                 |corner, k| self.varyings[corner][k],
-            );
+            )
+            .varyings(token);
         }
     }
 }

@@ -19,17 +19,48 @@ use crate::lanes::FragmentLanes;
 /// An edge function over a tile's pixels: inside where `at + x·column + y·row >= 0`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Edge {
-    pub(super) at: i32,
+    at: i32,
     column: i32,
-    pub(super) row: i32,
+    row: i32,
 }
 
-impl Edge {
-    /// The values at eight pixels of a row, of which the first is this far from the pixel of `at`.
+/// The three edges of a triangle, each in a lane.
+#[derive(Clone, Copy)]
+pub(super) struct Edges<S: Simd> {
+    at: i32x4<S>,
+    column: i32x4<S>,
+    row: i32x4<S>,
+}
+
+impl<S: FragmentLanes> Edges<S> {
     #[inline(always)]
-    pub(super) fn values<S: FragmentLanes>(&self, simd: S, [right, down]: [i32; 2]) -> i32x8<S> {
-        let first = self.at + self.column * right + self.row * down;
-        i32x8::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7]) * self.column + first
+    pub(super) fn of(simd: S, [a, b, c]: &[Edge; 3]) -> Self {
+        let vector = |a: i32, b: i32, c: i32| i32x4::load_array(simd, [a, b, c, 0]);
+        Self {
+            at: vector(a.at, b.at, c.at),
+            column: vector(a.column, b.column, c.column),
+            row: vector(a.row, b.row, c.row),
+        }
+    }
+
+    /// The values of each edge at eight pixels of a row, of which the first is this far from the pixel of `at`.
+    #[inline(always)]
+    pub(super) fn values(&self, [right, down]: [i32; 2]) -> [i32x8<S>; 3] {
+        let first = (self.at + self.column * right + self.row * down).to_array();
+        let (column, simd) = (self.column.to_array(), self.at.simd);
+        let columns = i32x8::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7]);
+        [
+            columns * column[0] + first[0],
+            columns * column[1] + first[1],
+            columns * column[2] + first[2],
+        ]
+    }
+
+    /// What each edge grows by per row, in all lanes.
+    #[inline(always)]
+    pub(super) fn rows(&self) -> [i32x8<S>; 3] {
+        let (row, simd) = (self.row.to_array(), self.at.simd);
+        [i32x8::splat(simd, row[0]), i32x8::splat(simd, row[1]), i32x8::splat(simd, row[2])]
     }
 }
 
@@ -75,16 +106,11 @@ impl<S: Simd> SmallEdges<S> {
 
     /// The edges for samples at `position`, in 1/256 pixel, and that many pixels from it.
     #[inline(always)]
-    pub(super) fn at(&self, [x, y]: [i32; 2]) -> [Edge; 3] {
+    pub(super) fn at(&self, [x, y]: [i32; 2]) -> Edges<S> {
         let right = i32x4::splat(self.column.simd, x) - self.from[0];
         let down = i32x4::splat(self.column.simd, y) - self.from[1];
         let value = self.column * right + self.row * down + self.exclusive;
-        let at = (value >> SUBPIXELS.trailing_zeros()).to_array();
-        let (column, row) = (self.column.to_array(), self.row.to_array());
-        [0, 1, 2].map(
-            #[inline(always)]
-            |i: usize| Edge { at: at[i], column: column[i], row: row[i] },
-        )
+        Edges { at: value >> SUBPIXELS.trailing_zeros(), column: self.column, row: self.row }
     }
 }
 

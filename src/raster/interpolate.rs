@@ -32,24 +32,25 @@ impl<'a, const N: usize> Interpolator<'a, N> {
         primitives: &[Handle],
         places: &[u8],
     ) -> [P; N] {
-        let mut result = [P::splat(token, 0.0); N];
         if N == 0 {
-            return result;
+            return [P::splat(token, 0.0); N];
         }
         let position = self.positions::<P>(token, pixels, places);
         let mut rest = P::lanes_with(token, primitives, primitives[0]);
-        result = self.plane(primitives[0]).interpolate::<P>(token, position);
+        let mut result = self.plane(primitives[0]).interpolate::<P>(token, position);
         rest ^= P::ALL_LANES;
         // A bit for each lane that waits for its triangle: no branch that depends on a single lane.
         while rest != 0 {
             let primitive = primitives[rest.trailing_zeros() as usize];
             let at = self.plane(primitive).interpolate::<P>(token, position);
-            for (result, at) in result.iter_mut().zip(at) {
-                *result = result.replace(primitives, primitive, at);
+            for (sum, at) in result.sums.iter_mut().zip(at.sums) {
+                *sum = sum.replace(primitives, primitive, at);
             }
+            result.weight = result.weight.replace(primitives, primitive, at.weight);
             rest &= !P::lanes_with(token, primitives, primitive);
         }
-        result
+        // Once for all: a division takes long.
+        result.varyings(token)
     }
 
     /// The window positions of the centres of pixels, or of other `places` in them.
@@ -93,7 +94,7 @@ impl<'a, const N: usize> Interpolator<'a, N> {
     fn plane(&mut self, primitive: Handle) -> &Plane<N> {
         let plane = &mut self.planes[primitive as usize % PLANES];
         if plane.primitive != primitive {
-            *plane = Plane::of(self.input, primitive);
+            plane.set(self.input, primitive);
         }
         // So that it is read from memory, number by number into all lanes. Otherwise the compiler keeps it in vectors,
         // and shuffles each number out of them.

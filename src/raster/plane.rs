@@ -46,26 +46,34 @@ impl<const N: usize> Plane<N> {
     /// That of a triangle.
     #[inline(always)]
     pub(super) fn of(input: &ShadeInput<'_>, primitive: Handle) -> Self {
+        let mut plane = Self::NONE;
+        plane.set(input, primitive);
+        plane
+    }
+
+    /// Becomes that of a triangle. In place: what is made and then copied is read back in larger pieces than it was
+    /// written, and has to wait for all of them.
+    #[inline(always)]
+    pub(super) fn set(&mut self, input: &ShadeInput<'_>, primitive: Handle) {
         let (chunk, index) = unpack(primitive);
         let chunk = &input.chunks[chunk];
-        let Triangle { vertices: [i0, i1, i2], scale, .. } = chunk.triangles[index];
+        let Triangle { vertices, scale, .. } = chunk.triangles[index];
         let corner = |vertex: u32| chunk.corner(vertex, input.vertices).window;
-        let (a, b, c) = (corner(i0), corner(i1), corner(i2));
+        let (a, b, c) = (corner(vertices[0]), corner(vertices[1]), corner(vertices[2]));
         let d = |to: f32, from: f32| f64::from(to) - f64::from(from);
         let step = |gx: f64, gy: f64| [gx * scale, gy * scale];
-        let varyings = |vertex: u32| *chunk.varyings_of::<N>(vertex, input.vertices);
-        Self {
-            primitive,
-            r: [a.r, b.r, c.r],
-            origin: [a.x.into(), a.y.into()],
-            steps: [step(d(c.y, a.y), -d(c.x, a.x)), step(-d(b.y, a.y), d(b.x, a.x))],
-            varyings: [varyings(i0), varyings(i1), varyings(i2)],
+        self.primitive = primitive;
+        self.r = [a.r, b.r, c.r];
+        self.origin = [a.x.into(), a.y.into()];
+        self.steps = [step(d(c.y, a.y), -d(c.x, a.x)), step(-d(b.y, a.y), d(b.x, a.x))];
+        for (varyings, vertex) in self.varyings.iter_mut().zip(vertices) {
+            *varyings = *chunk.varyings_of::<N>(vertex, input.vertices);
         }
     }
 
-    /// The varyings at window positions (x, y).
+    /// The varyings at window positions (x, y), as [`weighted`] has them.
     #[inline(always)]
-    pub(super) fn interpolate<P: Part>(&self, token: P::Token, [x, y]: [P::Double; 2]) -> [P; N] {
+    pub(super) fn interpolate<P: Part>(&self, token: P::Token, [x, y]: [P::Double; 2]) -> Weighted<P, N> {
         let x = x - P::double(token, self.origin[0]);
         let y = y - P::double(token, self.origin[1]);
         let l1 = P::double(token, self.steps[0][0]) * x + P::double(token, self.steps[0][1]) * y;
@@ -84,6 +92,27 @@ impl<const N: usize> Plane<N> {
     }
 }
 
+/// Varyings times their weights.
+#[derive(Clone, Copy)]
+pub(super) struct Weighted<P, const N: usize> {
+    pub(super) sums: [P; N],
+    /// The sum of the weights.
+    pub(super) weight: P,
+}
+
+impl<P: Part, const N: usize> Weighted<P, N> {
+    /// The varyings.
+    #[inline(always)]
+    pub(super) fn varyings(self, token: P::Token) -> [P; N] {
+        let part = P::splat(token, 1.0) / self.weight;
+        let mut varyings = self.sums;
+        for varying in &mut varyings {
+            *varying = *varying * part;
+        }
+        varyings
+    }
+}
+
 /// The varyings where the second and third barycentric coordinates are these, from 1/w and number k of each corner.
 #[inline(always)]
 pub(super) fn weighted<P: Part, const N: usize>(
@@ -91,15 +120,15 @@ pub(super) fn weighted<P: Part, const N: usize>(
     [l1, l2]: [P::Double; 2],
     r: [P; 3],
     varying: impl Fn(usize, usize) -> P,
-) -> [P; N] {
+) -> Weighted<P, N> {
     let l0 = P::double(token, 1.0) - l1 - l2;
     let w0 = P::narrow(l0) * r[0];
     let w1 = P::narrow(l1) * r[1];
     let w2 = P::narrow(l2) * r[2];
-    let w = P::splat(token, 1.0) / (w0 + w1 + w2);
-    let mut result = [w; N];
-    for (k, result) in result.iter_mut().enumerate() {
-        *result = (w0 * varying(0, k) + w1 * varying(1, k) + w2 * varying(2, k)) * w;
+    let weight = w0 + w1 + w2;
+    let mut sums = [weight; N];
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum = w0 * varying(0, k) + w1 * varying(1, k) + w2 * varying(2, k);
     }
-    result
+    Weighted { sums, weight }
 }

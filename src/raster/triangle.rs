@@ -6,7 +6,7 @@ use fearless_simd::{
 
 use super::{
     depth::{DepthPlane, WIDTH, along_row, whole},
-    edges::{Edge, SmallEdges, tile_edges},
+    edges::{Edge, Edges, SmallEdges, tile_edges},
     framebuffer::Tile,
     handle::Handle,
     samples,
@@ -71,7 +71,7 @@ pub(super) fn draw_triangle<S: FragmentLanes>(
     }
     for (offset, first) in offsets {
         if let Some(edges) = tile_edges(corners, tile, offset) {
-            let sample = Sample { first, offset, edges, origin: [0; 2] };
+            let sample = Sample { first, offset, edges: Edges::of(simd, &edges), origin: [0; 2] };
             draw_sample(simd, tile, &sample, &depth, bounds, handle, viewport.height);
         }
     }
@@ -112,18 +112,18 @@ pub(super) fn covering(
 }
 
 /// One of the samples of every pixel.
-struct Sample {
+struct Sample<S: FragmentLanes> {
     /// Where its depths begin in the tile.
     first: usize,
     /// Where it lies in a pixel, in 1/256 pixel, x right and y down.
     offset: [i32; 2],
     /// The triangle's edges there.
-    edges: [Edge; 3],
+    edges: Edges<S>,
     /// The pixel of the tile from which they are counted.
     origin: [usize; 2],
 }
 
-impl Sample {
+impl<S: FragmentLanes> Sample<S> {
     /// How far a pixel is from that.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "they are less than 64")]
@@ -137,7 +137,7 @@ impl Sample {
 fn draw_sample<S: FragmentLanes>(
     simd: S,
     tile: &mut Tile,
-    sample: &Sample,
+    sample: &Sample<S>,
     plane: &DepthPlane,
     bounds: TileBounds,
     handle: Handle,
@@ -152,20 +152,19 @@ fn draw_sample<S: FragmentLanes>(
     else {
         return;
     };
-    let [e0, e1, e2] = &sample.edges;
+    let [down0, down1, down2] = sample.edges.rows();
     let wide = bounds.x[1] - bounds.x[0] > 15;
     let mut start = bounds.x[0];
     while start <= bounds.x[1] {
         let x = start.min(TILE - WIDTH);
         start += WIDTH;
         let along_row = along_row(simd, whole(left + x) + dx - plane.origin[0], plane.column);
-        let first = sample.beyond_origin(x, bounds.y[0]);
-        let mut next = [e0.values(simd, first), e1.values(simd, first), e2.values(simd, first)];
+        let mut next = sample.edges.values(sample.beyond_origin(x, bounds.y[0]));
         // Whole numbers and sixteenths: a row down is exactly one less.
         let mut window_y = height as f64 - (whole(top + bounds.y[0]) + dy);
         for (depths, visible) in depths.iter_mut().zip(visible.iter_mut()) {
             let [v0, v1, v2] = next;
-            next = [v0 + e0.row, v1 + e1.row, v2 + e2.row];
+            next = [v0 + down0, v1 + down1, v2 + down2];
             let row_depth = plane.at + plane.row * (window_y - plane.origin[1]);
             window_y -= 1.0;
             // Negative where the pixel is outside of any edge.
