@@ -1,14 +1,14 @@
 //! The springs between consecutive points and their neighbours, some at once, and the sums over them.
 //!
-//! One loop computes all six families and adds them up: it runs over the points of a band without regard to rows, so that
-//! the CPU goes on dividing at the end of a row. A vector of springs belongs to points p, p + 1, … that are the left ends of those
-//! springs, or the owners where the other end is right above. So the sums on a row above take vectors as they are, and
-//! where the right end is the owner its vector is joined from this one and the one before.
+//! One loop computes all six families and adds them up. It runs over the points of a band without regard to rows, so that
+//! the CPU goes on dividing at the end of a row. A vector of pulls is of the springs whose left end consecutive points are, or
+//! whose owner, if the other end is right above. Where a sum needs the springs whose right end the points are, their vector
+//! is joined from this one and the one before.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-/// Points at once at the widest level; what is read may lie as far beyond the last point, and a spring's width more.
+/// Points at once at the widest level; so many entries, and some for the width of a spring, are read beyond the last point.
 pub(super) const MOST: usize = 8;
 
 /// A vector of numbers of consecutive points.
@@ -63,18 +63,14 @@ type Pulls<V> = [[V; 3]; 6];
 pub(super) struct Run {
     /// Index of the first in the cloth.
     pub(super) first: usize,
-    /// Its place in the band.
-    pub(super) place: usize,
     /// Vectors of points.
     pub(super) vectors: usize,
     /// Points of a row.
     pub(super) width: usize,
 }
 
-/// Computes `e · (k · (l - l0) / l)` for the springs of `run`, starts the sums on its points with `weight`, goes on with those a row
-/// above, and ends those two rows above. `before` are the pulls of the vector before the run.
-///
-/// In `x` and `sums` two rows are before the place 0 of the band.
+/// Computes `e · (k · (l - l0) / l)` for the springs of `run`, which begins with a row, starts the sums on its points with
+/// `weight`, goes on with those a row above, and ends those two rows above. In `x` and `sums` two rows are before those of the run.
 #[inline(always)]
 pub(super) fn sweep<S: Simd, V: Lanes<S, N>, const N: usize>(
     simd: S,
@@ -83,20 +79,20 @@ pub(super) fn sweep<S: Simd, V: Lanes<S, N>, const N: usize>(
     families: &[Fixed<'_>; 6],
     weight: [f64; 3],
     sums: &mut [Vec<f64>; 3],
-    before: &mut Pulls<V>,
 ) {
-    let Run { first, place, vectors: n, width } = run;
+    let Run { first, vectors: n, width } = run;
     let rest = [first + 1, first, first + 1, first, first + 2, first];
     let [l, u, ul, ur, l2, u2] = families;
     let [l, u, ul] = [springs(l, rest[0], n), springs(u, rest[1], n), springs(ul, rest[2], n)];
     let [ur, l2, u2] = [springs(ur, rest[3], n), springs(l2, rest[4], n), springs(u2, rest[5], n)];
-    let (row, above, above2) = (place + 2 * width, place + width, place);
+    let (row, above, above2) = (2 * width, width, 0);
     let (here, right, right2) = (three(x, row, n), three(x, row + 1, n), three(x, row + 2, n));
     let (up, up_right, up2) = (three(x, above, n), three(x, above + 1, n), three(x, above2, n));
     let [sx, sy, sz] = sums;
-    let places = above2..row + n * N;
-    let sums = [&mut sx[places.clone()], &mut sy[places.clone()], &mut sz[places]];
-    let mut last = *before;
+    let len = row + n * N;
+    let sums = [&mut sx[..len], &mut sy[..len], &mut sz[..len]];
+    // At the left end of a row no spring leads to the left.
+    let mut last = [[V::splat(simd, 0.0); 3]; 6];
     for i in 0..n {
         let (a, b, c) = (load(simd, here, i), load(simd, up, i), load(simd, up_right, i));
         let (a1, a2, d) = (load(simd, right, i), load(simd, right2, i), load(simd, up2, i));
@@ -114,7 +110,6 @@ pub(super) fn sweep<S: Simd, V: Lanes<S, N>, const N: usize>(
         }
         last = pulls;
     }
-    *before = last;
 }
 
 /// Adds one component of the pulls of vector `i` of a run to `sums`, which begin two rows above it.

@@ -4,12 +4,12 @@
 //!   `F = e · (k · (l - l0) / l)` goes to `f[a]` and comes off `f[b]`, unless l = 0;
 //! - with what [`Sweep::run`] is given, `new = x + (x - last) · velocity_retention + f · dt² / m`.
 //!
-//! It adds up what [`super::accumulate`] describes, in the same order. But a force is complete, and is used, two
-//! rows after the springs of its point were computed, while everything is still in the cache. Positions are copied, with room on both
-//! sides, so that borders are no special case: where there is no spring two other points are taken for its ends, and the pull is
+//! It adds up what [`super::accumulate`] describes, in the same order. Positions are copied, with room on both sides, so that
+//! borders are no special case: where there is no spring two other points are taken for its ends, and the pull is
 //! set to zero. A row ends within a vector of points, and the next begins in it.
 //!
-//! Bands of rows are swept on their own: each computes for itself the springs of the two rows below it that end in it.
+//! Bands of rows are swept on their own, so that sums are still in the cache when they are used: each computes for itself
+//! the springs of the two rows below it that end in it.
 
 use std::ops::Range;
 
@@ -28,10 +28,6 @@ use crate::lanes::level::dispatch;
 /// Rows of a band of a large cloth: few enough that many threads find work, and enough that
 /// the springs computed twice, about as many as two rows have, are few beside them.
 const ROWS: usize = 20;
-
-/// Points whose springs are computed before the forces that are complete then are used: so many that there are few
-/// such breaks, and that all is still in the cache.
-const POINTS: usize = 208;
 
 /// Buffers of a band, by component. Two rows come before its first point, two after its last, and some entries more.
 #[derive(Clone, Debug)]
@@ -126,24 +122,14 @@ impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
     /// Sweeps the band, `N` points at once.
     #[inline(always)]
     fn sweep<S: Simd, V: Lanes<S, N>, const N: usize>(&mut self, simd: S) {
-        let Range { start, end } = self.rows;
-        let Grid { width, height } = self.grid;
-        self.load((end + 2).min(height));
-        // In the rows after the last of the cloth there are no springs, so nothing more would change.
-        let points = ((end + 2).min(height) - start) * width;
-        let mut before = [[V::splat(simd, 0.0); 3]; FAMILIES];
-        let (mut place, mut done) = (0, 0);
-        while place < points {
-            let vectors = (points - place).div_ceil(N).min(POINTS / N);
-            let run = Run { first: start * width + place, place, vectors, width };
-            let Buffers { x: [x, y, z], sums } = &mut *self.buffers;
-            stencil::sweep(simd, run, [x, y, z], self.families, self.weight, sums, &mut before);
-            place += vectors * N;
-            let complete =
-                if place < points { place.saturating_sub(2 * width) } else { (end - start) * width };
-            self.finish(done..complete);
-            done = complete;
-        }
+        // In the rows after the last of the cloth there are no springs.
+        let (start, end) = (self.rows.start, (self.rows.end + 2).min(self.grid.height));
+        let width = self.grid.width;
+        self.load(end);
+        let run = Run { first: start * width, vectors: ((end - start) * width).div_ceil(N), width };
+        let Buffers { x: [x, y, z], sums } = &mut *self.buffers;
+        stencil::sweep::<S, V, N>(simd, run, [x, y, z], self.families, self.weight, sums);
+        self.finish();
     }
 
     /// Takes the positions from two rows above the band up to row `end`.
@@ -159,15 +145,15 @@ impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
         to_z[places].copy_from_slice(&z[first * width..end * width]);
     }
 
-    /// Hands on the forces on `points` of the band.
+    /// Hands on the forces on the points of the band.
     #[inline(always)]
-    fn finish(&mut self, points: Range<usize>) {
+    fn finish(&mut self) {
+        let Range { start, end } = self.rows;
         let width = self.grid.width;
+        let places = 2 * width..(end - start + 2) * width;
         let [x, y, z] = &self.buffers.sums;
-        let places = points.start + 2 * width..points.end + 2 * width;
         let sum = [&x[places.clone()], &y[places.clone()], &z[places]];
         let [x, y, z] = &mut self.out;
-        let out = [&mut x[points.clone()], &mut y[points.clone()], &mut z[points.clone()]];
-        (self.finish)(self.rows.start * width + points.start, sum, out);
+        (self.finish)(start * width, sum, [x, y, z]);
     }
 }
