@@ -4,8 +4,8 @@
 //!   `F = e · (k · (l - l0) / l)` goes to `f[a]` and comes off `f[b]`, unless l = 0;
 //! - with what [`Sweep::run`] is given, `new = x + (x - last) · velocity_retention + f · dt² / m`.
 //!
-//! It adds up what [`super::accumulate`] describes, in the same order. Positions are copied, with room on both sides, so that
-//! borders are no special case: where there is no spring two other points are taken for its ends, and the pull is
+//! It adds up what [`super::accumulate`] describes, in the same order. At the border of the cloth positions are copied, with room
+//! beside them, so that a border is no special case: where there is no spring two other points are taken for its ends, and the pull is
 //! set to zero. A row ends within a vector of points, and the next begins in it.
 //!
 //! Bands of rows are swept on their own, so that sums are still in the cache when they are used: each computes for itself
@@ -32,7 +32,7 @@ const ROWS: usize = 20;
 /// Buffers of a band, by component. Two rows come before its first point, two after its last, and some entries more.
 #[derive(Clone, Debug)]
 struct Buffers {
-    /// Positions, in m.
+    /// Positions, in m; nothing where all these rows are in the cloth.
     x: [Vec<f64>; 3],
     /// Sums so far, in N.
     sums: [Vec<f64>; 3],
@@ -54,13 +54,12 @@ impl Sweep {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(springs: &Springs) -> Result<Self> {
-        let Grid { width, height } = springs.grid;
+        let height = springs.grid.height;
         let rows = if springs.grid.len() < MANY { height } else { ROWS };
-        let room = || filled((rows + 4) * width + TO_SPARE, 0.0);
-        let three = || Ok([room()?, room()?, room()?]);
-        let buffers = Buffers { x: three()?, sums: three()? };
+        let starts = (0..height).step_by(rows);
+        let bands = starts.map(|start| Buffers::new(springs.grid, start..(start + rows).min(height)));
         let missing = if springs.families.is_empty() { springs.grid.len() + TO_SPARE } else { 0 };
-        Ok(Self { rows, bands: filled(height.div_ceil(rows), buffers)?, none: filled(missing, NO_SPRING)? })
+        Ok(Self { rows, bands: bands.collect::<Result<_>>()?, none: filled(missing, NO_SPRING)? })
     }
 
     /// Computes the force on every point at `x`, its weight and its springs, in N. `finish` gets the forces on
@@ -84,6 +83,20 @@ impl Sweep {
             dispatch!(simd => band.run(simd));
         });
     }
+}
+
+impl Buffers {
+    fn new(grid: Grid, rows: Range<usize>) -> Result<Self> {
+        let len = (rows.len() + 4) * grid.width + TO_SPARE;
+        let copied = if is_inside(grid, &rows) { 0 } else { len };
+        let three = |len| Ok([filled(len, 0.0)?, filled(len, 0.0)?, filled(len, 0.0)?]);
+        Ok(Self { x: three(copied)?, sums: three(len)? })
+    }
+}
+
+/// Whether all that is read for a band of `rows` is in the cloth.
+fn is_inside(grid: Grid, rows: &Range<usize>) -> bool {
+    rows.start >= 2 && (rows.end + 2) * grid.width + TO_SPARE <= grid.len()
 }
 
 /// The families of `springs` by slot; one that is switched off has springs without stiffness.
@@ -125,24 +138,17 @@ impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
         // In the rows after the last of the cloth there are no springs.
         let (start, end) = (self.rows.start, (self.rows.end + 2).min(self.grid.height));
         let width = self.grid.width;
-        self.load(end);
         let run = Run { first: start * width, vectors: ((end - start) * width).div_ceil(N), width };
-        let Buffers { x: [x, y, z], sums } = &mut *self.buffers;
-        stencil::sweep::<S, V, N>(simd, run, [x, y, z], self.families, self.weight, sums);
+        let Buffers { x: copies, sums } = &mut *self.buffers;
+        let x = if is_inside(self.grid, &self.rows) {
+            let first = (start - 2) * width;
+            let [x, y, z] = self.x.components();
+            [&x[first..], &y[first..], &z[first..]]
+        } else {
+            copy(self.x, width, start, end, copies)
+        };
+        stencil::sweep::<S, V, N>(simd, run, x, self.families, self.weight, sums);
         self.finish();
-    }
-
-    /// Takes the positions from two rows above the band up to row `end`.
-    #[inline(always)]
-    fn load(&mut self, end: usize) {
-        let (start, width) = (self.rows.start, self.grid.width);
-        let first = start.saturating_sub(2);
-        let places = (first + 2 - start) * width..(end + 2 - start) * width;
-        let [x, y, z] = self.x.components();
-        let [to_x, to_y, to_z] = &mut self.buffers.x;
-        to_x[places.clone()].copy_from_slice(&x[first * width..end * width]);
-        to_y[places.clone()].copy_from_slice(&y[first * width..end * width]);
-        to_z[places].copy_from_slice(&z[first * width..end * width]);
     }
 
     /// Hands on the forces on the points of the band.
@@ -156,4 +162,25 @@ impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
         let [x, y, z] = &mut self.out;
         (self.finish)(start * width, sum, [x, y, z]);
     }
+}
+
+/// Copies the positions from two rows above row `start` up to row `end`, as many as there are, to where a band that starts there
+/// has them.
+#[inline(always)]
+fn copy<'a>(
+    from: &Points,
+    width: usize,
+    start: usize,
+    end: usize,
+    to: &'a mut [Vec<f64>; 3],
+) -> [&'a [f64]; 3] {
+    let first = start.saturating_sub(2);
+    let places = (first + 2 - start) * width..(end + 2 - start) * width;
+    let points = first * width..end * width;
+    let [x, y, z] = from.components();
+    let [to_x, to_y, to_z] = to;
+    to_x[places.clone()].copy_from_slice(&x[points.clone()]);
+    to_y[places.clone()].copy_from_slice(&y[points.clone()]);
+    to_z[places].copy_from_slice(&z[points]);
+    [to_x, to_y, to_z]
 }
