@@ -47,8 +47,8 @@ pub mod grid;
 mod params;
 mod points;
 pub(crate) mod real;
-mod row;
 pub mod springs;
+mod stencil;
 pub(crate) mod stretch_limit;
 pub(crate) mod sweep;
 

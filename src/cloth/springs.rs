@@ -60,6 +60,12 @@ impl SpringKind {
 /// How many families of springs there are.
 pub const FAMILIES: usize = 6;
 
+/// In place of the rest length of a point without a spring.
+pub(super) const NO_SPRING: f64 = -1.0;
+
+/// Entries after those of the last point, for vectors that begin with one of the last points.
+pub(super) const TO_SPARE: usize = 16;
+
 /// Which neighbour the springs of a family join their owners to.
 #[derive(Clone, Copy)]
 struct Stencil {
@@ -135,7 +141,8 @@ pub struct Family {
     pub offset: usize,
     /// Stiffness, in N/m.
     pub stiffness: f64,
-    /// Rest length of the spring that each point owns, in metres; 0 for points without one.
+    /// Rest length of the spring that each point owns, in metres; below 0 for points without one, and for some entries after
+    /// the last point.
     pub rest: Vec<f64>,
 }
 
@@ -146,7 +153,7 @@ impl Family {
         let (columns, rows, offset) = (stencil.columns(grid), stencil.rows(grid), stencil.offset(grid));
         let stiffness = cloth.ks * kind.relative_stiffness();
         let mut family = Self { kind, slot, columns, rows, left, up, offset, stiffness, rest: Vec::new() };
-        family.rest = filled(grid.len(), 0.0)?;
+        family.rest = filled(grid.len() + TO_SPARE, NO_SPRING)?;
         for a in family.points(grid) {
             family.rest[a] = len(start.get(a) - start.get(a - offset));
         }

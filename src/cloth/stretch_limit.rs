@@ -44,7 +44,7 @@ impl StretchLimit {
         let factor = 1.0 + limit;
         let mut reach = Vec::with_capacity(springs.families.len());
         for family in &springs.families {
-            let mut squares = filled(family.rest.len(), f64::NAN)?;
+            let mut squares = filled(springs.grid.len(), f64::NAN)?;
             for a in family.points(springs.grid) {
                 squares[a] = (factor * family.rest[a]) * (factor * family.rest[a]) * MARGIN;
             }

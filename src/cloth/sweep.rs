@@ -1,65 +1,51 @@
-//! Phase 1 in one sweep over the rows of a cloth, and what is done with the forces on the way: under Verlet's scheme
+//! Phase 1 in one sweep over the points of a cloth, and what is done with the forces on the way: under Verlet's scheme
 //! phase 2. Of the published method it is these lines:
 //! - every force starts at the weight; for each spring in creation order `e = x[b] - x[a]`, `l = len(e)`, and
 //!   `F = e · (k · (l - l0) / l)` goes to `f[a]` and comes off `f[b]`, unless l = 0;
 //! - with what [`Sweep::run`] is given, `new = x + (x - last) · velocity_retention + f · dt² / m`.
 //!
-//! It adds up what [`super::accumulate`] describes, in the same order. But a force is complete, and is used, three
-//! rows after the springs of its point were computed, while everything is still in the cache; and while the CPU divides
-//! for the springs of one row, it adds up those of the row before. Rows are copied into buffers that are
-//! padded on both sides and to whole chunks of columns, so that borders are no special case: what a column without a
-//! spring has there leads to a copy of a neighbour, and its pull is set to zero.
+//! It adds up what [`super::accumulate`] describes, in the same order. At the border of the cloth positions are copied, with room
+//! beside them, so that a border is no special case: where there is no spring two other points are taken for its ends, and the pull is
+//! set to zero. A row ends within a vector of points, and the next begins in it.
 //!
-//! At row j come the pulls of the springs that it owns, the first part of the sums on row j - 1, the
-//! second of those on row j - 2 and the last of those on row j - 3. Bands of rows are swept on their own: each computes
-//! for itself the springs of the two rows below it that end in it.
+//! Bands of rows are swept on their own, so that sums are still in the cache when they are used: each computes for itself
+//! the springs of the two rows below it that end in it.
 
 use std::ops::Range;
 
-use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 use rayon::prelude::*;
 
 use super::chunks::MANY;
 use super::grid::Grid;
-use super::row::{LANES, Owned, Rows, own_sum, sums_above};
-use super::springs::{FAMILIES, Family, Springs};
+use super::springs::{FAMILIES, NO_SPRING, Springs, TO_SPARE};
+use super::stencil::{self, Fixed, Lanes, MOST, Run};
 use super::{Model, Points, filled};
 use crate::error::Result;
-use crate::lanes::level::{Narrow, dispatch_narrow};
+use crate::lanes::level::dispatch;
 
 /// Rows of a band of a large cloth: few enough that many threads find work, and enough that
-/// the springs computed twice, about as many as a row has, are few beside them.
+/// the springs computed twice, about as many as two rows have, are few beside them.
 const ROWS: usize = 20;
 
-/// Buffers of a band, by component.
+/// Buffers of a band, by component. Two rows come before its first point, two after its last, and some entries more.
 #[derive(Clone, Debug)]
 struct Buffers {
-    /// Positions, in m: in place `j % 3` those of row j.
-    x: [Rows; 3],
-    /// What springs pull their owners with, in N: in place `j % 2` those of row j, by family.
-    pulls: [Rows; 2],
-    /// Sums so far, in N: in place `j % 3` those of row j.
-    sums: [Rows; 3],
+    /// Positions, in m; nothing where all these rows are in the cloth.
+    x: [Vec<f64>; 3],
+    /// Sums so far, in N.
+    sums: [Vec<f64>; 3],
 }
 
-/// What of the springs of a family does not change.
-#[derive(Clone, Debug)]
-struct Fixed {
-    /// The length up to which a spring does not pull, in metres: 0, and without end for a column without a spring.
-    /// Starts with column 0.
-    slack: Vec<f64>,
-    /// Rest lengths in the last row, where [`Family::rest`] has no entries for the rest of a chunk.
-    last_rest: Vec<f64>,
-}
-
-/// The sweep over the rows of a cloth.
+/// The sweep over the points of a cloth.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep {
     /// Rows of a band.
     rows: usize,
     bands: Vec<Buffers>,
-    /// As [`Springs::families`].
-    fixed: Vec<Fixed>,
+    /// Rest lengths where there is no family of springs.
+    none: Vec<f64>,
 }
 
 impl Sweep {
@@ -68,18 +54,16 @@ impl Sweep {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub(crate) fn new(springs: &Springs) -> Result<Self> {
-        let Grid { width, height } = springs.grid;
+        let height = springs.grid.height;
         let rows = if springs.grid.len() < MANY { height } else { ROWS };
-        let three = || Ok([Rows::new(3, width)?, Rows::new(3, width)?, Rows::new(3, width)?]);
-        let pulls = || Rows::new(3 * FAMILIES, width);
-        let buffers = Buffers { x: three()?, pulls: [pulls()?, pulls()?], sums: three()? };
-        let fixed = |family: &Family| Fixed::new(family, springs.grid);
-        let fixed = springs.families.iter().map(fixed).collect::<Result<_>>()?;
-        Ok(Self { rows, bands: filled(height.div_ceil(rows), buffers)?, fixed })
+        let starts = (0..height).step_by(rows);
+        let bands = starts.map(|start| Buffers::new(springs.grid, start..(start + rows).min(height)));
+        let missing = if springs.families.is_empty() { springs.grid.len() + TO_SPARE } else { 0 };
+        Ok(Self { rows, bands: bands.collect::<Result<_>>()?, none: filled(missing, NO_SPRING)? })
     }
 
     /// Computes the force on every point at `x`, its weight and its springs, in N. `finish` gets the forces on
-    /// a row by component, with the index of its first point and its entries of `out`.
+    /// consecutive points by component, with the index of the first and their entries of `out`.
     pub(crate) fn run(
         &mut self,
         x: &Points,
@@ -87,35 +71,49 @@ impl Sweep {
         out: &mut Points,
         finish: impl Fn(usize, [&[f64]; 3], [&mut [f64]; 3]) + Sync,
     ) {
-        let Self { rows, bands, fixed } = self;
-        let (rows, weight) = (*rows, params.weight.into());
-        let [ox, oy, oz] = out.components_mut().map(|out| out.par_chunks_mut(rows * springs.grid.width));
+        let Self { rows, bands, none } = self;
+        let (rows, weight, grid) = (*rows, params.weight.into(), springs.grid);
+        let families = &families(springs, none);
+        let [ox, oy, oz] = out.components_mut().map(|out| out.par_chunks_mut(rows * grid.width));
         let bands = bands.par_iter_mut().zip(ox).zip(oy).zip(oz).enumerate();
         bands.for_each(|(band, (((buffers, ox), oy), oz))| {
-            let rows = band * rows..(band * rows + rows).min(springs.grid.height);
-            let mut band =
-                Band { x, springs, fixed, weight, finish: &finish, rows, buffers, out: [ox, oy, oz] };
-            dispatch_narrow!(Narrow::widest(), simd => band.run(simd));
+            let rows = band * rows..(band * rows + rows).min(grid.height);
+            let out = [ox, oy, oz];
+            let mut band = Band { x, grid, families, weight, finish: &finish, rows, buffers, out };
+            dispatch!(simd => band.run(simd));
         });
     }
 }
 
-impl Fixed {
-    fn new(family: &Family, grid: Grid) -> Result<Self> {
-        let columns = grid.width.next_multiple_of(LANES);
-        let mut slack = filled(columns, f64::INFINITY)?;
-        slack[family.columns.clone()].fill(0.0);
-        let mut last_rest = filled(columns, 0.0)?;
-        last_rest[..grid.width].copy_from_slice(&family.rest[grid.len() - grid.width..]);
-        Ok(Self { slack, last_rest })
+impl Buffers {
+    fn new(grid: Grid, rows: Range<usize>) -> Result<Self> {
+        let len = (rows.len() + 4) * grid.width + TO_SPARE;
+        let copied = if is_inside(grid, &rows) { 0 } else { len };
+        let three = |len| Ok([filled(len, 0.0)?, filled(len, 0.0)?, filled(len, 0.0)?]);
+        Ok(Self { x: three(copied)?, sums: three(len)? })
     }
+}
+
+/// Whether all that is read for a band of `rows` is in the cloth.
+fn is_inside(grid: Grid, rows: &Range<usize>) -> bool {
+    rows.start >= 2 && (rows.end + 2) * grid.width + TO_SPARE <= grid.len()
+}
+
+/// The families of `springs` by slot; one that is switched off has springs without stiffness.
+fn families<'a>(springs: &'a Springs, none: &'a [f64]) -> [Fixed<'a>; FAMILIES] {
+    let rest = springs.families.first().map_or(none, |family| &family.rest);
+    let mut families = [Fixed { k: 0.0, rest }; FAMILIES];
+    for family in &springs.families {
+        families[family.slot] = Fixed { k: family.stiffness, rest: &family.rest };
+    }
+    families
 }
 
 /// The sweep over a band of rows.
 struct Band<'a, F> {
     x: &'a Points,
-    springs: &'a Springs,
-    fixed: &'a [Fixed],
+    grid: Grid,
+    families: &'a [Fixed<'a>; FAMILIES],
     weight: [f64; 3],
     finish: &'a F,
     rows: Range<usize>,
@@ -124,113 +122,65 @@ struct Band<'a, F> {
 }
 
 impl<F: Fn(usize, [&[f64]; 3], [&mut [f64]; 3])> Band<'_, F> {
-    /// Sweeps the band.
+    /// Sweeps the band. Eight points at once need vectors of 512 bits: with narrower ones, four are faster.
     #[inline(always)]
     fn run<S: Simd>(&mut self, simd: S) {
-        let Range { start, end } = self.rows;
-        (start.saturating_sub(2)..start).for_each(|j| self.load(j));
-        for j in start..end + 3 {
-            if j < self.springs.grid.height {
-                self.load(j);
-            }
-            self.sweep_row(simd, j);
-            if j >= start + 3 {
-                self.finish(j - 3);
-            }
+        if S::f64s::LEN == MOST {
+            self.sweep::<S, f64x8<S>, 8>(simd);
+        } else {
+            self.sweep::<S, f64x4<S>, 4>(simd);
         }
     }
 
-    /// Takes the positions of row `j`.
+    /// Sweeps the band, `N` points at once.
     #[inline(always)]
-    fn load(&mut self, j: usize) {
-        let row = j * self.springs.grid.width..(j + 1) * self.springs.grid.width;
-        let [x, y, z] = self.x.components();
-        let to = &mut self.buffers.x[j % 3];
-        to.set(0, &x[row.clone()]);
-        to.set(1, &y[row.clone()]);
-        to.set(2, &z[row]);
-    }
-
-    /// Computes the springs owned by row `j` that end in the band, and adds up those of row j - 1.
-    #[inline(always)]
-    fn sweep_row<S: Simd>(&mut self, simd: S, j: usize) {
-        let Self { springs, fixed, weight, rows, buffers, .. } = self;
-        let n = springs.grid.width.div_ceil(LANES);
-        let Buffers { x, pulls: [even, odd], sums } = &mut **buffers;
-        let (new, old) = if j.is_multiple_of(2) { (even, odd) } else { (odd, even) };
-        let [first, second, third] = sums;
-        let [own, above, above2] = match j % 3 {
-            0 => [third, second, first],
-            1 => [first, third, second],
-            _ => [second, first, third],
+    fn sweep<S: Simd, V: Lanes<S, N>, const N: usize>(&mut self, simd: S) {
+        // In the rows after the last of the cloth there are no springs.
+        let (start, end) = (self.rows.start, (self.rows.end + 2).min(self.grid.height));
+        let width = self.grid.width;
+        let run = Run { first: start * width, vectors: ((end - start) * width).div_ceil(N), width };
+        let Buffers { x: copies, sums } = &mut *self.buffers;
+        let x = if is_inside(self.grid, &self.rows) {
+            let first = (start - 2) * width;
+            let [x, y, z] = self.x.components();
+            [&x[first..], &y[first..], &z[first..]]
+        } else {
+            copy(self.x, width, start, end, copies)
         };
-        // Loops, because `for_each` of a range is not sure to be inlined, and then not compiled for the vectors of the CPU.
-        for (c, weight) in weight.iter().enumerate() {
-            let slot = 2 * c;
-            let mut sum = own_sum(simd, n, old, c, *weight, own.chunks_mut(c));
-            let band = (*springs, *fixed, rows.end);
-            match owned(band, slot, j, x, new) {
-                Some(owned) => owned.pull_and(simd, n, sum),
-                None => {
-                    for i in 0..n {
-                        sum(i);
-                    }
-                }
-            }
-            let mut sum = sums_above(simd, n, old, c, above.chunks_mut(c), above2.chunks_mut(c));
-            match owned(band, slot + 1, j, x, new) {
-                Some(owned) => owned.pull_and(simd, n, sum),
-                None => {
-                    for i in 0..n {
-                        sum(i);
-                    }
-                }
-            }
-        }
+        stencil::sweep::<S, V, N>(simd, run, x, self.families, self.weight, sums);
+        self.finish();
     }
 
-    /// Hands on the forces on row `j`.
+    /// Hands on the forces on the points of the band.
     #[inline(always)]
-    fn finish(&mut self, j: usize) {
-        let width = self.springs.grid.width;
-        let sums = &self.buffers.sums[j % 3];
-        let sum = [sums.columns(0, width), sums.columns(1, width), sums.columns(2, width)];
-        let at = (j - self.rows.start) * width;
+    fn finish(&mut self) {
+        let Range { start, end } = self.rows;
+        let width = self.grid.width;
+        let places = 2 * width..(end - start + 2) * width;
+        let [x, y, z] = &self.buffers.sums;
+        let sum = [&x[places.clone()], &y[places.clone()], &z[places]];
         let [x, y, z] = &mut self.out;
-        let out = [&mut x[at..][..width], &mut y[at..][..width], &mut z[at..][..width]];
-        (self.finish)(j * width, sum, out);
+        (self.finish)(start * width, sum, [x, y, z]);
     }
 }
 
-/// The springs of family `slot` that are owned by row `j` and end above row `end`, with their places in `pulls`. If there
-/// are none, their pulls are zero.
+/// Copies the positions from two rows above row `start` up to row `end`, as many as there are, to where a band that starts there
+/// has them.
 #[inline(always)]
-fn owned<'a>(
-    (springs, fixed, end): (&'a Springs, &'a [Fixed], usize),
-    slot: usize,
-    j: usize,
-    x: &'a [Rows; 3],
-    pulls: &'a mut Rows,
-) -> Option<Owned<'a>> {
-    let Grid { width, height } = springs.grid;
-    let [px, py, pz] = pulls.three_mut(3 * slot);
-    let family = springs.families.iter().zip(fixed).find(|(family, _)| family.slot == slot);
-    let present = family.filter(|(family, _)| (family.up..height.min(end + family.up)).contains(&j));
-    let Some((family, fixed)) = present else {
-        px.fill([0.0; LANES]);
-        py.fill([0.0; LANES]);
-        pz.fill([0.0; LANES]);
-        return None;
-    };
-    let right = -family.left;
-    let (a, b) = (&x[j % 3], &x[(j - family.up) % 3]);
-    let rest = family.rest.get(j * width..j * width + width.next_multiple_of(LANES));
-    Some(Owned {
-        k: family.stiffness,
-        rest: rest.unwrap_or(&fixed.last_rest).as_chunks().0,
-        slack: fixed.slack.as_chunks().0,
-        a: [a.chunks(0, 0), a.chunks(1, 0), a.chunks(2, 0)],
-        b: [b.chunks(0, right), b.chunks(1, right), b.chunks(2, right)],
-        out: [px, py, pz],
-    })
+fn copy<'a>(
+    from: &Points,
+    width: usize,
+    start: usize,
+    end: usize,
+    to: &'a mut [Vec<f64>; 3],
+) -> [&'a [f64]; 3] {
+    let first = start.saturating_sub(2);
+    let places = (first + 2 - start) * width..(end + 2 - start) * width;
+    let points = first * width..end * width;
+    let [x, y, z] = from.components();
+    let [to_x, to_y, to_z] = to;
+    to_x[places.clone()].copy_from_slice(&x[points.clone()]);
+    to_y[places.clone()].copy_from_slice(&y[points.clone()]);
+    to_z[places].copy_from_slice(&z[points]);
+    [to_x, to_y, to_z]
 }

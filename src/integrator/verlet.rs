@@ -59,8 +59,8 @@ impl Integrator for Verlet {
         work.springs_evaluated += model.springs.len() as u64;
     }
 
-    /// Both phases in one sweep over the rows: what [`Verlet::compute_forces`] and [`Verlet::advance`] do, with each force used as
-    /// soon as it is complete. New positions go to a third buffer, because bands of rows still read the old ones of their
+    /// Both phases in one sweep: what [`Verlet::compute_forces`] and [`Verlet::advance`] do, with the forces of a band of rows used as
+    /// soon as they are complete. New positions go to a third buffer, because bands of rows still read the old ones of their
     /// neighbours; then the three change places.
     fn step(&mut self, x: &mut Points, last: &mut Points, model: Model<'_>, work: &mut Counters) {
         let Self { step, sweep, spare } = self;
@@ -72,8 +72,8 @@ impl Integrator for Verlet {
             #[inline(always)]
             |first, force, new| {
                 for (c, new) in new.into_iter().enumerate() {
-                    let row = first..first + new.len();
-                    advance_row(&now[c][row.clone()], &before[c][row], force[c], new, *step);
+                    let band = first..first + new.len();
+                    advance_band(&now[c][band.clone()], &before[c][band], force[c], new, *step);
                 }
             },
         );
@@ -124,9 +124,9 @@ pub(super) fn step_bound(cloth: &Cloth, damping: Damping) -> StepBound {
     StepBound { at_rest, in_motion: if cloth.damping > 0.0 { at_rest } else { SQRT_2 } }
 }
 
-/// One component of a row: `new = x + (x - last) · velocity_retention + f · dt2_over_m`.
+/// One component of a band: `new = x + (x - last) · velocity_retention + f · dt2_over_m`.
 #[inline(always)]
-fn advance_row(x: &[f64], last: &[f64], force: &[f64], new: &mut [f64], step: DampedStep) {
+fn advance_band(x: &[f64], last: &[f64], force: &[f64], new: &mut [f64], step: DampedStep) {
     let DampedStep { velocity_retention, dt2_over_m } = step;
     let n = new.len();
     let (x, last, force) = (&x[..n], &last[..n], &force[..n]);
