@@ -51,7 +51,7 @@ impl<S: Simd> Lanes<S, 8> for f64x8<S> {
 pub(super) struct Fixed<'a> {
     /// Stiffness, in N/m.
     pub(super) k: f64,
-    /// Rest lengths in metres, below 0 for a point without a spring.
+    /// Rest lengths in metres, below 0 for a point without a spring; nothing where the family is switched off.
     pub(super) rest: &'a [f64],
 }
 
@@ -135,7 +135,7 @@ fn add_up<S: Simd, V: Lanes<S, N>, const N: usize>(
     (V::from_slice(simd, second_row_above) - above2).store_slice(second_row_above);
 }
 
-/// The pulls on the points at `a` of springs to those at `b`.
+/// The pulls on the points at `a` of springs to those at `b`, zero where there are no rest lengths.
 #[inline(always)]
 fn pull<S: Simd, V: Lanes<S, N>, const N: usize>(
     simd: S,
@@ -144,9 +144,11 @@ fn pull<S: Simd, V: Lanes<S, N>, const N: usize>(
     a: [V; 3],
     b: [V; 3],
 ) -> [V; 3] {
+    let zero = V::splat(simd, 0.0);
+    let Some(rest) = rest.get(i) else { return [zero; 3] };
     let (ex, ey, ez) = (b[0] - a[0], b[1] - a[1], b[2] - a[2]);
     let l = (ex * ex + ey * ey + ez * ez).sqrt();
-    let (rest, zero) = (V::load_array_ref(simd, &rest[i]), V::splat(simd, 0.0));
+    let rest = V::load_array_ref(simd, rest);
     let scale = V::splat(simd, k) * (l - rest) / l;
     let scale = (l.simd_le(zero) | rest.simd_lt(zero)).select(zero, scale);
     [ex * scale, ey * scale, ez * scale]
@@ -159,10 +161,11 @@ fn component<V: Copy>(pulls: &Pulls<V>, c: usize) -> [V; 6] {
     [l[c], u[c], ul[c], ur[c], l2[c], u2[c]]
 }
 
-/// The springs of a family from the point `first` on.
+/// The springs of a family from the point `first` on; none if it is switched off.
 #[inline(always)]
 fn springs<'a, const N: usize>(family: &Fixed<'a>, first: usize, n: usize) -> (f64, &'a [[f64; N]]) {
-    (family.k, vectors(family.rest, first, n))
+    let rest = if family.rest.is_empty() { &[] } else { vectors(family.rest, first, n) };
+    (family.k, rest)
 }
 
 /// Some vectors of each component.

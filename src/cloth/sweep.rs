@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::chunks::MANY;
 use super::grid::Grid;
-use super::springs::{FAMILIES, NO_SPRING, Springs, TO_SPARE};
+use super::springs::{FAMILIES, Springs, TO_SPARE};
 use super::stencil::{self, Fixed, Lanes, MOST, Run};
 use super::{Model, Points, filled};
 use crate::error::Result;
@@ -44,8 +44,6 @@ pub(crate) struct Sweep {
     /// Rows of a band.
     rows: usize,
     bands: Vec<Buffers>,
-    /// Rest lengths where there is no family of springs.
-    none: Vec<f64>,
 }
 
 impl Sweep {
@@ -58,8 +56,7 @@ impl Sweep {
         let rows = if springs.grid.len() < MANY { height } else { ROWS };
         let starts = (0..height).step_by(rows);
         let bands = starts.map(|start| Buffers::new(springs.grid, start..(start + rows).min(height)));
-        let missing = if springs.families.is_empty() { springs.grid.len() + TO_SPARE } else { 0 };
-        Ok(Self { rows, bands: bands.collect::<Result<_>>()?, none: filled(missing, NO_SPRING)? })
+        Ok(Self { rows, bands: bands.collect::<Result<_>>()? })
     }
 
     /// Computes the force on every point at `x`, its weight and its springs, in N. `finish` gets the forces on
@@ -71,9 +68,9 @@ impl Sweep {
         out: &mut Points,
         finish: impl Fn(usize, [&[f64]; 3], [&mut [f64]; 3]) + Sync,
     ) {
-        let Self { rows, bands, none } = self;
+        let Self { rows, bands } = self;
         let (rows, weight, grid) = (*rows, params.weight.into(), springs.grid);
-        let families = &families(springs, none);
+        let families = &families(springs);
         let [ox, oy, oz] = out.components_mut().map(|out| out.par_chunks_mut(rows * grid.width));
         let bands = bands.par_iter_mut().zip(ox).zip(oy).zip(oz).enumerate();
         bands.for_each(|(band, (((buffers, ox), oy), oz))| {
@@ -99,10 +96,9 @@ fn is_inside(grid: Grid, rows: &Range<usize>) -> bool {
     rows.start >= 2 && (rows.end + 2) * grid.width + TO_SPARE <= grid.len()
 }
 
-/// The families of `springs` by slot; one that is switched off has springs without stiffness.
-fn families<'a>(springs: &'a Springs, none: &'a [f64]) -> [Fixed<'a>; FAMILIES] {
-    let rest = springs.families.first().map_or(none, |family| &family.rest);
-    let mut families = [Fixed { k: 0.0, rest }; FAMILIES];
+/// The families of `springs` by slot.
+fn families(springs: &Springs) -> [Fixed<'_>; FAMILIES] {
+    let mut families = [Fixed { k: 0.0, rest: &[] }; FAMILIES];
     for family in &springs.families {
         families[family.slot] = Fixed { k: family.stiffness, rest: &family.rest };
     }
