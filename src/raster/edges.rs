@@ -49,11 +49,7 @@ impl<S: FragmentLanes> Edges<S> {
         let first = (self.at + self.column * right + self.row * down).to_array();
         let (column, simd) = (self.column.to_array(), self.at.simd);
         let columns = i32x8::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7]);
-        [
-            columns * column[0] + first[0],
-            columns * column[1] + first[1],
-            columns * column[2] + first[2],
-        ]
+        [columns * column[0] + first[0], columns * column[1] + first[1], columns * column[2] + first[2]]
     }
 
     /// What each edge grows by per row, in all lanes.
