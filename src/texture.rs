@@ -9,6 +9,7 @@ use crate::container::{jpeg_end, png_end};
 use crate::error::{Error, Kind, Result};
 use crate::exif::orientation;
 use crate::fence::fenced;
+use crate::lanes::Texels;
 
 /// Longest side of a texture, texels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -149,10 +150,11 @@ impl Texture {
         self.red.get_or_init(|| self.texels.iter().map(|&[red, ..]| red).collect())
     }
 
-    /// All texels with 8 bits a channel, red lowest, where that is all they have: a quarter of the memory to look into,
-    /// which the caches hold for longer. They are computed when they are asked for the first time.
-    pub fn packed(&self) -> Option<&[u32]> {
-        self.packed.get_or_init(|| self.pack_all()).as_deref()
+    /// All texels for bilinear look-ups, which may ask for them packed. Where 8 bits a channel are enough, those are a
+    /// quarter of the memory to look into, which the caches hold for longer.
+    pub fn for_look_ups(&self, packed: bool) -> Texels<'_> {
+        let packed = if packed { self.packed.get_or_init(|| self.pack_all()).as_deref() } else { None };
+        Texels { full: &self.texels, packed }
     }
 
     /// All texels with 8 bits a channel. `None` if some have more, or if there is no memory for them: they only save time.

@@ -21,6 +21,7 @@ use fearless_simd::Simd;
 pub use pair::Pair;
 pub use scalar::F64;
 pub(crate) use scalar::rgba8;
+pub use texels::Texels;
 
 /// What [`Lane`] asks of a type that is a [`Part`] itself.
 macro_rules! is_its_only_part {
@@ -123,7 +124,7 @@ pub trait Part: Lane<Part = Self> {
     const WIDTH: usize;
     /// A bit for each of them.
     const ALL_LANES: u32 = (1 << Self::WIDTH) - 1;
-    /// Whether look-ups are to read packed texels: with vectors that are not the widest, they take longer than full
+    /// Whether [`Part::bilinear`] reads packed texels: with vectors that are not the widest, they take longer than full
     /// ones.
     const PACKED: bool;
     /// The same lanes in binary64, in which positions in the window are computed.
@@ -165,23 +166,13 @@ pub trait Part: Lane<Part = Self> {
     ///
     /// # Panics
     /// If one of the texels is not there.
-    fn bilinear(texels: &[[f32; 4]], places: &Places, down: u32, weights: [Self; 2]) -> [Self; 3];
-    /// Those four texels where they are packed.
-    ///
-    /// # Panics
-    /// If one of the texels is not there.
-    fn packed_around(token: Self::Token, texels: &[u32], places: &Places, down: u32) -> [Self::Whole; 4];
-    /// [`Part::bilinear`] of what [`Part::packed_around`] gives.
-    fn bilinear_packed(around: [Self::Whole; 4], weights: [Self; 2]) -> [Self; 3];
+    fn bilinear(texels: Texels<'_>, places: Self::Whole, down: u32, weights: [Self; 2]) -> [Self; 3];
     /// As [`Part::bilinear`], of one channel alone.
     ///
     /// # Panics
     /// If one of the texels is not there.
-    fn bilinear_plane(texels: &[f32], places: &Places, down: u32, weights: [Self; 2]) -> Self;
+    fn bilinear_plane(texels: &[f32], places: Self::Whole, down: u32, weights: [Self; 2]) -> Self;
 }
-
-/// Where a texel is in an array, for each lane of a part.
-pub type Places = [i32; MAX_WIDTH];
 
 /// Whole numbers side by side.
 pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, Output = Self> {
@@ -199,8 +190,6 @@ pub trait Whole: Copy + Add<Output = Self> + Add<i32, Output = Self> + Mul<i32, 
     fn each(self, f: impl FnMut(i32) -> i32) -> Self;
     /// One lane.
     fn lane(self, index: usize) -> i32;
-    /// Writes the lanes to the first elements of `out`.
-    fn store(self, out: &mut Places);
 }
 
 /// The lanes in which fragments are shaded with the vectors of a level.

@@ -1,7 +1,7 @@
 //! Tests: every operation of every kind of lanes is that of plain numbers.
 
 use super::{
-    F64, FragmentLanes, Lane, MAX_WIDTH, Part, Places, Whole,
+    F64, FragmentLanes, Lane, Part, Texels, Whole,
     level::{Level, dispatch},
 };
 
@@ -115,10 +115,9 @@ fn of_texels<P: Part>(token: P::Token) {
     // The last one reads the last texel.
     let places = P::from_fn(token, |i| number(11 * (i + 1)).min(58.0).floor()).to_whole();
     let places = places.each(|place| if place == places.lane(P::WIDTH - 1) { 58 } else { place });
-    let first = stored(places);
-    let mixed = P::bilinear(&texels, &first, 10, [right, lower]);
+    let mixed = P::bilinear(Texels { full: &texels, packed: None }, places, 10, [right, lower]);
     for (channel, mixed) in
-        mixed.into_iter().chain([P::bilinear_plane(&red, &first, 10, [right, lower])]).enumerate()
+        mixed.into_iter().chain([P::bilinear_plane(&red, places, 10, [right, lower])]).enumerate()
     {
         for i in 0..P::WIDTH {
             let texel = |further: usize| texels[places.lane(i) as usize + further][channel % 3];
@@ -128,13 +127,6 @@ fn of_texels<P: Part>(token: P::Token) {
             assert_eq!(mixed.lane(i).to_bits(), expected.lane(i).to_bits(), "channel {channel}, lane {i}");
         }
     }
-}
-
-/// Places as look-ups take them.
-fn stored(places: impl Whole) -> Places {
-    let mut stored = [0; MAX_WIDTH];
-    places.store(&mut stored);
-    stored
 }
 
 /// Packed texels are read as the numbers that they stand for.
@@ -148,9 +140,9 @@ fn of_packed_texels<P: Part>(token: P::Token) {
         let packed: Vec<u32> = bytes.iter().map(|b| u32::from_le_bytes([b[0], b[1], b[2], 0])).collect();
         let weights = [P::from_fn(token, |i| [0.0, 0.3, 0.7][i % 3]), P::splat(token, 0.1)];
         let places = P::from_fn(token, |i| u8::try_from(3 * i).map_or(0.0, f32::from)).to_whole();
-        let places = stored(places);
-        let found = P::bilinear_packed(P::packed_around(token, &packed, &places, 10), weights);
-        for (expected, found) in P::bilinear(&full, &places, 10, weights).into_iter().zip(found) {
+        let mixed = [None, Some(&*packed)]
+            .map(|packed| P::bilinear(Texels { full: &full, packed }, places, 10, weights));
+        for (expected, found) in mixed[0].into_iter().zip(mixed[1]) {
             for i in 0..P::WIDTH {
                 assert_eq!(found.lane(i).to_bits(), expected.lane(i).to_bits(), "{count}, {step}, lane {i}");
             }
@@ -186,7 +178,6 @@ fn every_operation_is_that_of_plain_numbers_at_every_level() {
     operations::<f32>(());
     of_parts::<f32>(());
     of_texels::<f32>(());
-    of_packed_texels::<f32>(());
     of_texels::<F64>(());
     of_comparisons::<f32>(());
     of_comparisons::<F64>(());

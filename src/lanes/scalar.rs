@@ -3,7 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{
-    Lane, Part, Places, Whole, is_its_only_part,
+    Lane, Part, Texels, Whole, is_its_only_part,
     texels::{mix, square},
 };
 
@@ -148,33 +148,16 @@ macro_rules! one_lane {
                 self.to_whole()
             }
             #[inline(always)]
-            fn bilinear(
-                texels: &[[f32; 4]],
-                places: &Places,
-                down: u32,
-                [right, lower]: [Self; 2],
-            ) -> [Self; 3] {
-                let square = square(texels, places[0], down);
+            fn bilinear(texels: Texels<'_>, place: i32, down: u32, [right, lower]: [Self; 2]) -> [Self; 3] {
+                let square = square(texels.full, place, down);
                 [0, 1, 2].map(|channel: usize| {
                     let [a, b, c, d] = square.map(|texel| Self::from(texel[channel]));
                     mix!(mix!(a, b, right), mix!(c, d, right), lower)
                 })
             }
             #[inline(always)]
-            fn packed_around((): (), texels: &[u32], places: &Places, down: u32) -> [i32; 4] {
-                square(texels, places[0], down).map(u32::cast_signed)
-            }
-            #[inline(always)]
-            fn bilinear_packed(around: [i32; 4], [right, lower]: [Self; 2]) -> [Self; 3] {
-                [0, 1, 2].map(|channel: usize| {
-                    let number = |texel: i32| Self::from(f32::from(texel.to_le_bytes()[channel]) / 255.0);
-                    let [a, b, c, d] = around.map(number);
-                    mix!(mix!(a, b, right), mix!(c, d, right), lower)
-                })
-            }
-            #[inline(always)]
-            fn bilinear_plane(texels: &[f32], places: &Places, down: u32, [right, lower]: [Self; 2]) -> Self {
-                let [a, b, c, d] = square(texels, places[0], down).map(Self::from);
+            fn bilinear_plane(texels: &[f32], place: i32, down: u32, [right, lower]: [Self; 2]) -> Self {
+                let [a, b, c, d] = square(texels, place, down).map(Self::from);
                 mix!(mix!(a, b, right), mix!(c, d, right), lower)
             }
             #[inline(always)]
@@ -232,9 +215,5 @@ impl Whole for i32 {
     #[inline(always)]
     fn lane(self, _index: usize) -> i32 {
         self
-    }
-    #[inline(always)]
-    fn store(self, out: &mut Places) {
-        out[0] = self;
     }
 }

@@ -6,11 +6,7 @@ use fearless_simd::{
 };
 
 use super::{
-    FragmentLanes, Lane, Pair, Part, Places, Whole, is_its_only_part,
-    packed::{
-        bilinear_packed_4, bilinear_packed_8, bilinear_packed_16, packed_around_4, packed_around_8,
-        packed_around_16,
-    },
+    FragmentLanes, Lane, Pair, Part, Texels, Whole, is_its_only_part,
     scalar::WHOLE_STEPS,
     texels::{
         bilinear_4, bilinear_8, bilinear_16, bilinear_plane_4, bilinear_plane_8, bilinear_plane_16, transpose,
@@ -18,7 +14,7 @@ use super::{
 };
 
 macro_rules! vector {
-    ($vector:ident, $double:ident, $whole:ident, $key:ident, $width:literal, $transpose:ident, $bilinear:ident, $plane:ident, $around:ident, $packed:ident) => {
+    ($vector:ident, $double:ident, $whole:ident, $key:ident, $width:literal, $transpose:ident, $bilinear:ident, $plane:ident) => {
         impl<S: FragmentLanes> Lane for $vector<S> {
             type Token = S;
             is_its_only_part!();
@@ -131,19 +127,11 @@ macro_rules! vector {
                 self.to_int()
             }
             #[inline(always)]
-            fn bilinear(texels: &[[f32; 4]], places: &Places, down: u32, weights: [Self; 2]) -> [Self; 3] {
+            fn bilinear(texels: Texels<'_>, places: $whole<S>, down: u32, weights: [Self; 2]) -> [Self; 3] {
                 $bilinear(texels, places, down, weights)
             }
             #[inline(always)]
-            fn packed_around(token: S, texels: &[u32], places: &Places, down: u32) -> [$whole<S>; 4] {
-                $around(token, texels, places, down)
-            }
-            #[inline(always)]
-            fn bilinear_packed(around: [$whole<S>; 4], weights: [Self; 2]) -> [Self; 3] {
-                $packed(around, weights)
-            }
-            #[inline(always)]
-            fn bilinear_plane(texels: &[f32], places: &Places, down: u32, weights: [Self; 2]) -> Self {
+            fn bilinear_plane(texels: &[f32], places: $whole<S>, down: u32, weights: [Self; 2]) -> Self {
                 $plane(texels, places, down, weights)
             }
         }
@@ -181,49 +169,12 @@ macro_rules! vector {
             fn lane(self, index: usize) -> i32 {
                 self[index]
             }
-            #[inline(always)]
-            fn store(self, out: &mut Places) {
-                self.store_slice(&mut out[..$width]);
-            }
         }
     };
 }
-vector!(
-    f32x4,
-    f64x2,
-    i32x4,
-    u32x4,
-    4,
-    transpose_4,
-    bilinear_4,
-    bilinear_plane_4,
-    packed_around_4,
-    bilinear_packed_4
-);
-vector!(
-    f32x8,
-    f64x4,
-    i32x8,
-    u32x8,
-    8,
-    transpose_8,
-    bilinear_8,
-    bilinear_plane_8,
-    packed_around_8,
-    bilinear_packed_8
-);
-vector!(
-    f32x16,
-    f64x8,
-    i32x16,
-    u32x16,
-    16,
-    transpose_16,
-    bilinear_16,
-    bilinear_plane_16,
-    packed_around_16,
-    bilinear_packed_16
-);
+vector!(f32x4, f64x2, i32x4, u32x4, 4, transpose_4, bilinear_4, bilinear_plane_4);
+vector!(f32x8, f64x4, i32x8, u32x8, 8, transpose_8, bilinear_8, bilinear_plane_8);
+vector!(f32x16, f64x8, i32x16, u32x16, 16, transpose_16, bilinear_16, bilinear_plane_16);
 
 /// Red, green and blue of the texels `first..first + 4`.
 #[inline(always)]

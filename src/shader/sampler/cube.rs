@@ -2,13 +2,12 @@
 
 use super::{
     SamplerCube, Wrap,
-    around::{Around, between_packed, join, split},
-    look_up::{Pictures, look_up, mix, side},
+    look_up::{Pictures, inside, look_up, mix, side},
 };
 use crate::{
     cubemap::Cubemap,
     glsl::{Vec3, dot},
-    lanes::{Lane, MAX_PARTS, MAX_WIDTH, Part, Whole},
+    lanes::{Lane, MAX_WIDTH, Part, Whole},
     scene::Filter,
 };
 
@@ -16,58 +15,24 @@ use crate::{
 /// direction (and NaN, and one whose squared length is 0 in f32) reads the middle of the +x face.
 #[inline(always)]
 pub fn texture_cube<L: Lane>(sampler: SamplerCube<'_>, direction: Vec3<L>) -> Vec3<L> {
-    let size = [sampler.cubemap.size(); 2];
-    let (mut faces, mut coordinates) = ([0; MAX_PARTS], [direction.x; 2]);
-    if sampler.filter == Filter::Bilinear {
-        let mut part = 0;
-        let [s, t, _] = L::map_parts(
-            direction.into(),
-            #[inline(always)]
-            |[x, y, z]| {
-                // What is not on one face is not inside.
-                let (face, [s, t]) = one_face(Vec3 { x, y, z }).unwrap_or((0, [x.all(-1.0); 2]));
-                faces[part] = face;
-                part += 1;
-                [s, t, t]
-            },
-        );
-        coordinates = [s, t];
-    }
-    if <L::Part as Part>::PACKED
-        && sampler.filter == Filter::Bilinear
-        && let Some(rgb) = between_packed(
-            size,
-            coordinates,
-            #[inline(always)]
-            |part| sampler.cubemap.faces()[faces[part]].packed(),
-        )
-    {
-        return rgb.into();
-    }
-    let mut around = Around::nowhere(direction.x.token());
-    if sampler.filter == Filter::Bilinear {
-        around.find(size, coordinates);
-    }
-    let mut rgb = split(direction.into());
-    for (part, rgb) in rgb.iter_mut().enumerate().take(L::PARTS) {
-        *rgb = if around.holds(part) {
-            Part::bilinear(
-                sampler.cubemap.faces()[faces[part]].texels(),
-                &around.places[part],
-                around.down,
-                around.weights[part],
-            )
-        } else {
-            any_faces(sampler, Vec3::from(*rgb))
-        };
-    }
-    join(&rgb)
+    let rgb = L::map_parts(
+        direction.into(),
+        #[inline(always)]
+        |direction| cube_texel(sampler, Vec3::from(direction)),
+    );
+    Vec3::from(rgb)
 }
 
-/// `texture_cube` of one part, whose lanes may look at several faces.
+/// `texture_cube` of one part.
 #[inline(always)]
-fn any_faces<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
+fn cube_texel<P: Part>(sampler: SamplerCube<'_>, direction: Vec3<P>) -> [P; 3] {
     let size = [sampler.cubemap.size(); 2];
+    if sampler.filter == Filter::Bilinear
+        && let Some((face, coordinates)) = one_face(direction)
+        && let Some((places, down, weights)) = inside(size, coordinates)
+    {
+        return P::bilinear(sampler.cubemap.faces()[face].for_look_ups(P::PACKED), places, down, weights);
+    }
     let (face, s, t) = cube_face(direction);
     if sampler.seamless && sampler.filter == Filter::Bilinear {
         return seamless(sampler.cubemap, face, [s, t]);

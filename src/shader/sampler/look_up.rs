@@ -22,6 +22,21 @@ impl Pictures for Picture<'_> {
     }
 }
 
+/// Where the four texels around (u·w, v·h) are: the number of the first, what is added for the row below, and the
+/// weights. Only if in no lane one of them is beyond an edge: that is nearly always so, and much less work.
+#[inline(always)]
+pub(super) fn inside<P: Part>([w, h]: [usize; 2], [u, v]: [P; 2]) -> Option<(P::Whole, u32, [P; 2])> {
+    let (w, h) = (side(w), side(h));
+    let (x, y) = (u * w as f32 - 0.5, v * h as f32 - 0.5);
+    let (left, top) = (x.floor(), y.floor());
+    let (i, j) = (left.whole_if_small(), top.whole_if_small());
+    if i.within(w - 1) & j.within(h - 1) {
+        Some((j * w + i, w.cast_unsigned(), [x - left, y - top]))
+    } else {
+        None
+    }
+}
+
 /// Filters texels around (u·w, v·h) of each lane's picture.
 #[inline(always)]
 pub(super) fn look_up<P: Part>(

@@ -7,19 +7,17 @@
 //! coordinates in 0..=2 where both sides are powers of two, and what is left is 2⁻²¹ (tested).
 
 mod look_up;
-mod around;
 mod cube;
 
 use crate::{
     cubemap::Cubemap,
     glsl::Vec3,
-    lanes::{Lane, MAX_WIDTH, Part},
+    lanes::{Lane, Part},
     raster::Uniform,
     scene::Filter,
     texture::Texture,
 };
-use around::{Around, between_packed, first_of_four, from_first, join, split};
-use look_up::{Picture, look_up, side};
+use look_up::{Picture, inside, look_up};
 
 pub use cube::texture_cube;
 
@@ -73,57 +71,37 @@ impl<'a> Uniform for SamplerCube<'a> {
 /// `texture(sampler2D, vec2(u, v)).rgb`
 #[inline(always)]
 pub fn texture<L: Lane>(sampler: Sampler2d<'_>, [u, v]: [L; 2]) -> Vec3<L> {
-    let Sampler2d { texture, filter, wrap_v } = sampler;
-    let size = [texture.width(), texture.height()];
-    if <L::Part as Part>::PACKED
-        && filter == Filter::Bilinear
-        && let Some(packed) = texture.packed()
-        && let Some(rgb) = between_packed(
-            size,
-            [u, v],
-            #[inline(always)]
-            |_| Some(packed),
-        )
-    {
-        return rgb.into();
-    }
-    let mut around = Around::nowhere(u.token());
-    if filter == Filter::Bilinear {
-        around.find(size, [u, v]);
-    }
-    let mut rgb = split([u, v, v]);
-    for (part, rgb) in rgb.iter_mut().enumerate().take(L::PARTS) {
-        let [u, v, _] = *rgb;
-        *rgb = if around.holds(part) {
-            Part::bilinear(texture.texels(), &around.places[part], around.down, around.weights[part])
-        } else {
-            look_up(filter, [u, v], size, [Wrap::Repeat, wrap_v], &Picture(texture.texels()))
-        };
-    }
-    join(&rgb)
+    let rgb = L::map_parts(
+        [u, v, v],
+        #[inline(always)]
+        |[u, v, _]| picture_texel(sampler, [u, v]),
+    );
+    Vec3::from(rgb)
 }
 
-/// `texture(sampler2D, vec2(u, v)).r` at several places, of one part.
+/// `texture` of one part.
 #[inline(always)]
-pub fn texture_red<P: Part, const K: usize>(sampler: Sampler2d<'_>, at: [[P; 2]; K]) -> [P; K] {
+fn picture_texel<P: Part>(sampler: Sampler2d<'_>, [u, v]: [P; 2]) -> [P; 3] {
     let Sampler2d { texture, filter, wrap_v } = sampler;
     let size = [texture.width(), texture.height()];
-    let (mut places, mut inside, mut weights) = ([[0; MAX_WIDTH]; K], [false; K], at);
-    if filter == Filter::Bilinear {
-        for k in 0..K {
-            (inside[k], weights[k]) = first_of_four(size, from_first(size, at[k]), &mut places[k]);
-        }
+    if filter == Filter::Bilinear
+        && let Some((places, down, weights)) = inside(size, [u, v])
+    {
+        return P::bilinear(texture.for_look_ups(P::PACKED), places, down, weights);
     }
-    std::hint::black_box(&mut places);
-    let mut reds = [P::splat(at[0][0].token(), 0.0); K];
-    for (k, red) in reds.iter_mut().enumerate() {
-        *red = if inside[k] {
-            P::bilinear_plane(texture.red(), &places[k], side(size[0]).cast_unsigned(), weights[k])
-        } else {
-            let picture = Picture(texture.texels());
-            let [red, ..] = look_up(filter, at[k], size, [Wrap::Repeat, wrap_v], &picture);
-            red
-        };
+    look_up(filter, [u, v], size, [Wrap::Repeat, wrap_v], &Picture(texture.texels()))
+}
+
+/// `texture(sampler2D, vec2(u, v)).r`, of one part.
+#[inline(always)]
+pub fn texture_red<P: Part>(sampler: Sampler2d<'_>, [u, v]: [P; 2]) -> P {
+    let Sampler2d { texture, filter, wrap_v } = sampler;
+    let size = [texture.width(), texture.height()];
+    if filter == Filter::Bilinear
+        && let Some((places, down, weights)) = inside(size, [u, v])
+    {
+        return P::bilinear_plane(texture.red(), places, down, weights);
     }
-    reds
+    let [red, ..] = look_up(filter, [u, v], size, [Wrap::Repeat, wrap_v], &Picture(texture.texels()));
+    red
 }

@@ -46,13 +46,17 @@ fn all_65536_words_are_rounded_once() {
     }
 }
 
-/// Half of a texel of 8 bits is none.
+/// Half of a texel of 8 bits is none, and without being asked nothing is packed.
 #[test]
 fn only_texels_of_8_bits_are_packed() {
-    let packed = |rgb: &[[f32; 3]]| Texture::from_rgb(2, 1, rgb).unwrap().packed().map(<[u32]>::to_vec);
+    let packed = |rgb: &[[f32; 3]], asked: bool| {
+        let texture = Texture::from_rgb(2, 1, rgb).unwrap();
+        texture.for_look_ups(asked).packed.map(<[u32]>::to_vec)
+    };
     let eight = [[1.0, 0.2, 0.0], [0.0, 0.0, 128.0 / 255.0]];
-    assert_eq!(packed(&eight), Some(vec![0x0000_33FF, 0x0080_0000]));
-    assert_eq!(packed(&[[1.0, 0.2, 0.0], [0.0, 0.0, 127.5 / 255.0]]), None);
+    assert_eq!(packed(&eight, true), Some(vec![0x0000_33FF, 0x0080_0000]));
+    assert_eq!(packed(&eight, false), None);
+    assert_eq!(packed(&[[1.0, 0.2, 0.0], [0.0, 0.0, 127.5 / 255.0]], true), None);
 }
 
 #[test]
