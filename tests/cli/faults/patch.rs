@@ -61,7 +61,8 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 fn items(text: &str, name: &str) -> Vec<Range<usize>> {
     let (mut found, mut start) = (Vec::new(), 0);
     for line in text.split_inclusive('\n') {
-        let words = tokens(line);
+        // Most lines do not hold the name, and to take all of them apart for each fault takes half a minute.
+        let words = if line.contains(name) { tokens(line) } else { Vec::new() };
         let begins = words.windows(2).any(|pair| KEYWORDS.contains(&pair[0].text) && pair[1].text == name);
         if begins {
             let lines = text[start..].split_inclusive('\n');
