@@ -193,7 +193,7 @@ fn the_speed_that_the_readme_names_is_that_of_the_tables() {
     for (head, columns) in [("| ms a picture", &[4, 7][..]), ("| µs a step, after a second", &[4])] {
         // One of each machine.
         let tables: Vec<&str> = page.split(head).skip(1).collect();
-        assert_eq!(tables.len(), 2, "{head}");
+        assert_eq!(tables.len(), 3, "{head}");
         for table in tables {
             let speed = extent(table, columns);
             assert!(readme.contains(&speed), "{head}: {speed}");
