@@ -12,6 +12,7 @@
 use std::path::Path;
 
 use drape::error::Result;
+use drape::math::length;
 use drape::scene::{Overrides, Vec3, load_stock};
 use drape::simulation::Simulation;
 
@@ -29,10 +30,10 @@ impl Ring {
     fn depenetrate(&self, x: Vec3) -> Option<Vec3> {
         let e = x - self.center;
         let flat = Vec3::new(e.x, 0.0, e.z);
-        let nearest = self.center + flat * (self.radius / flat.norm());
+        let nearest = self.center + flat * (self.radius / length(flat));
         let out = x - nearest;
         // On the axis of the ring there is no nearest point: the comparison with NaN is false.
-        (out.norm() < self.tube).then(|| nearest + out * (self.tube / out.norm()))
+        (length(out) < self.tube).then(|| nearest + out * (self.tube / length(out)))
     }
 }
 

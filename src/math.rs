@@ -13,9 +13,14 @@ use nalgebra::Vector3;
 /// which the tests have and the engine has not; [`length`] and [`unit()`] are the engine's.
 pub type Vec3 = Vector3<f64>;
 
+/// `a · b`, summed from left to right.
+pub fn dot(a: Vec3, b: Vec3) -> f64 {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
 /// The length of `v`, in its unit.
 pub fn length(v: Vec3) -> f64 {
-    v.dot(&v).sqrt()
+    dot(v, v).sqrt()
 }
 
 /// The direction of `v`, which is not zero, as a vector of length 1.

@@ -57,4 +57,4 @@ pub use params::{Params, damping_rate};
 pub use points::Points;
 
 pub(crate) use params::Model;
-pub(crate) use points::{dot, filled, len, too_large};
+pub(crate) use points::{filled, too_large};

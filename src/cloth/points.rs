@@ -75,16 +75,6 @@ impl Points {
     }
 }
 
-/// `a · b`, summed from left to right.
-pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
-    a.x * b.x + a.y * b.y + a.z * b.z
-}
-
-/// Length of `a`.
-pub(crate) fn len(a: Vec3) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// `len` copies of `value`, or an error where memory does not suffice.
 pub(crate) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>> {
     let mut values = Vec::new();

@@ -8,8 +8,9 @@
 use std::ops::Range;
 
 use super::grid::Grid;
-use super::{Points, filled, len};
+use super::{Points, filled};
 use crate::error::Result;
+use crate::math::length;
 use crate::scene::Cloth;
 
 /// What a spring resists.
@@ -155,7 +156,7 @@ impl Family {
         let mut family = Self { kind, slot, columns, rows, left, up, offset, stiffness, rest: Vec::new() };
         family.rest = filled(grid.len() + TO_SPARE, NO_SPRING)?;
         for a in family.points(grid) {
-            family.rest[a] = len(start.get(a) - start.get(a - offset));
+            family.rest[a] = length(start.get(a) - start.get(a - offset));
         }
         Ok(family)
     }

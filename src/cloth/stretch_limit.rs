@@ -10,9 +10,10 @@ use rayon::prelude::*;
 
 use super::grid::Pins;
 use super::springs::{Family, Springs};
-use super::{Counters, Points, chunks, dot, filled};
+use super::{Counters, Points, chunks, filled};
 use crate::error::Result;
 use crate::lanes::level::dispatch_plain;
+use crate::math::dot;
 use crate::scene::Vec3;
 
 /// Points in a block.

@@ -19,8 +19,9 @@ use std::ops::Range;
 use super::Colliders;
 use super::contact::{Entry, Shape};
 use crate::cloth::grid::Pins;
-use crate::cloth::{Counters, Points, dot, filled, len};
+use crate::cloth::{Counters, Points, filled};
 use crate::error::Result;
+use crate::math::{dot, length};
 use crate::scene::{ColliderKind, PerKind, Vec3};
 
 /// Most contacts of a point in one step.
@@ -180,7 +181,7 @@ fn first_entry<'a>(p: usize, motion: &Motion, colliders: &'a Colliders) -> Optio
     let mut first: Option<Meeting<'_>> = None;
     for (kind, shape) in colliders.shapes() {
         if let Some(entry) = shape.enter(p, motion.at, motion.way)
-            && -dot(motion.way, entry.normal) > GRAZE * len(motion.way)
+            && -dot(motion.way, entry.normal) > GRAZE * length(motion.way)
             && first.as_ref().is_none_or(|(_, _, other)| entry.part < other.part)
         {
             first = Some((kind, shape, entry));
@@ -196,7 +197,7 @@ fn after_contact(v: Vec3, n: Vec3, mu: f64) -> Vec3 {
         return v;
     }
     let slide = v + n * impulse;
-    let (speed, brake) = (len(slide), mu * impulse);
+    let (speed, brake) = (length(slide), mu * impulse);
     if speed <= brake { Vec3::zeros() } else { slide * (1.0 - brake / speed) }
 }
 

@@ -146,8 +146,8 @@ impl Neighbors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloth::dot;
     use crate::lanes::level::Level;
+    use crate::math::dot;
     use crate::math::splitmix64;
     use crate::scene::{Overrides, Scene, load_text};
 

@@ -10,8 +10,9 @@
 
 use super::coulomb::Coulomb;
 use crate::cloth::grid::Pins;
-use crate::cloth::{Counters, Points, dot, len};
+use crate::cloth::{Counters, Points};
 use crate::error::Result;
+use crate::math::{dot, length};
 use crate::scene::{Cloth, Sim, Vec3};
 
 /// How often the approach of every pair is ended in a step: in a pile each pair brings its neighbours closer again.
@@ -51,7 +52,7 @@ impl Pairs {
 
     /// The distance that a pair keeps, in metres.
     fn kept(&self, [p, q]: [usize; 2]) -> f64 {
-        self.distance.min(len(self.start.get(p) - self.start.get(q)))
+        self.distance.min(length(self.start.get(p) - self.start.get(q)))
     }
 
     /// Makes good a part of what pairs were too close at `last`, before the step.
@@ -59,7 +60,7 @@ impl Pairs {
         for &pair in &self.close {
             let [p, q] = pair;
             let e = last.get(p) - last.get(q);
-            let (l, kept) = (len(e), self.kept(pair));
+            let (l, kept) = (length(e), self.kept(pair));
             if 0.0 < l && l < kept {
                 let push = e * (self.part * (kept - l) / l);
                 for (point, share) in shares(pair, pins) {
@@ -84,7 +85,7 @@ impl Pairs {
         for &pair in self.close.iter().cycle().take(PASSES * self.close.len()) {
             let [p, q] = pair;
             let e = last.get(p) - last.get(q);
-            let l = len(e);
+            let l = length(e);
             let n = e / l;
             // How much nearer they come than they may.
             let excess = dot(x.get(p) - x.get(q), n) - l + (l - self.kept(pair)).max(0.0);

@@ -1,8 +1,9 @@
 //! The plane: a point that went through it is put back on the side from which it came.
 
 use super::contact::{Entry, ROUNDING, Shape};
-use crate::cloth::{Points, dot, filled, len};
+use crate::cloth::{Points, filled};
 use crate::error::Result;
+use crate::math::{dot, length};
 use crate::scene::{self, Vec3};
 
 /// Height above a plane at which a point is put, in metres.
@@ -32,7 +33,7 @@ impl Plane {
     /// [`crate::error::Kind::Scene`] when the sides do not fit in memory.
     pub(super) fn new(plane: &scene::Plane, kept_outside: Option<&Points>) -> Result<Self> {
         let scene::Plane { point, friction, .. } = *plane;
-        let normal = plane.normal / len(plane.normal);
+        let normal = plane.normal / length(plane.normal);
         let mut above = Vec::new();
         if let Some(x) = kept_outside {
             above = filled(x.len(), true)?;

@@ -1,6 +1,6 @@
 //! How a point that is too close to others is moved: the rule of both searches for close pairs.
 
-use crate::cloth::dot;
+use crate::math::dot;
 use crate::scene::{Cloth, Sim, Vec3};
 
 /// When and how far points move apart.

@@ -1,7 +1,8 @@
 //! The energies of a cloth.
 
 use crate::cloth::springs::Springs;
-use crate::cloth::{Params, Points, dot, len};
+use crate::cloth::{Params, Points};
+use crate::math::{dot, length};
 
 /// The energies of a cloth, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -44,7 +45,7 @@ pub(crate) fn spring_energy(x: &Points, springs: &Springs) -> f64 {
     let mut energy = 0.0;
     for family in &springs.families {
         for a in family.points(springs.grid) {
-            let strain = len(x.get(a - family.offset) - x.get(a)) - family.rest[a];
+            let strain = length(x.get(a - family.offset) - x.get(a)) - family.rest[a];
             energy += 0.5 * family.stiffness * strain * strain;
         }
     }

@@ -42,7 +42,8 @@ use super::ledger::Ledger;
 use super::stability::is_bounded_and_always_stable;
 use crate::cloth::grid::Grid;
 use crate::cloth::springs::Springs;
-use crate::cloth::{Params, Points, len};
+use crate::cloth::{Params, Points};
+use crate::math::length;
 use crate::scene::{Cloth, Contact, Precision, Scene, SelfCollision};
 
 /// Largest coordinate, in metres: as large as any number that a scene may hold.
@@ -81,7 +82,7 @@ impl Allowance {
     /// The allowance of the cloth of `scene`, which has `springs`.
     pub(crate) fn new(scene: &Scene, cloth: &Cloth, springs: &Springs, params: &Params) -> Self {
         let Params { mass, dt, .. } = *params;
-        let (all, g) = (mass * springs.grid.len() as f64, len(scene.sim.gravity));
+        let (all, g) = (mass * springs.grid.len() as f64, length(scene.sim.gravity));
         let coulomb = scene.sim.contact == Contact::Coulomb;
         let distance = match scene.sim.self_collision {
             SelfCollision::Off => 0.0,
@@ -125,7 +126,7 @@ fn nearest_neighbor(grid: Grid, x: &Points, p: usize) -> f64 {
     let above = (j > 0).then(|| p - grid.width);
     let below = (j + 1 < grid.height).then_some(p + grid.width);
     let beside = [left, right, above, below].into_iter().flatten();
-    beside.map(|q| len(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min)
+    beside.map(|q| length(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min)
 }
 
 /// The kinetic energy of `mass` at `speed`, in J.

@@ -1,7 +1,8 @@
 //! How far a cloth is stretched, how close its points are and how fast they move.
 
+use crate::cloth::Points;
 use crate::cloth::springs::{SpringKind, Springs};
-use crate::cloth::{Points, dot, len};
+use crate::math::{dot, length};
 
 /// The extremes of a cloth at one moment; all zero without a cloth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -41,7 +42,7 @@ pub(crate) fn longest_spring(x: &Points, springs: &Springs) -> Option<Stretched>
     for family in &springs.families {
         for a in family.points(springs.grid) {
             let b = a - family.offset;
-            let stretch = len(x.get(b) - x.get(a)) / family.rest[a];
+            let stretch = length(x.get(b) - x.get(a)) / family.rest[a];
             if longest.is_none_or(|longest| stretch > longest.stretch) && stretch.is_finite() {
                 longest = Some(Stretched { kind: family.kind, ends: [b, a], stretch });
             }
@@ -52,7 +53,7 @@ pub(crate) fn longest_spring(x: &Points, springs: &Springs) -> Option<Stretched>
 
 /// The point that moved farthest in the last step, and how far, in metres.
 pub(crate) fn fastest_point(x: &Points, last: &Points) -> Option<(usize, f64)> {
-    let moves = (0..x.len()).map(|p| (p, len(x.get(p) - last.get(p))));
+    let moves = (0..x.len()).map(|p| (p, length(x.get(p) - last.get(p))));
     moves.max_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
@@ -99,7 +100,7 @@ mod tests {
                 x.set(p, crate::scene::Vec3::new(a, 3.0 * b, 0.5 * c));
             }
             let pairs = (0..x.len()).flat_map(|p| (0..p).map(move |q| (p, q)));
-            let all = pairs.map(|(p, q)| len(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min);
+            let all = pairs.map(|(p, q)| length(x.get(p) - x.get(q))).fold(f64::INFINITY, f64::min);
             assert_eq!(smallest_distance(&x), all, "{count} points");
         }
     }

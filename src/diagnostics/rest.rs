@@ -9,8 +9,9 @@
 //!
 //! Two frames may be alike by chance, so a cloth is at rest when it was quiet for [`QUIET`] seconds.
 
-use crate::cloth::{Params, Points, damping_rate, len};
+use crate::cloth::{Params, Points, damping_rate};
 use crate::error::Result;
+use crate::math::length;
 use crate::scene::{Cloth, Damping, Sim};
 
 /// Largest speed at rest, in sides of the cloth per second: 1 mm/s for a cloth of 1 m.
@@ -69,7 +70,7 @@ impl RestWatch {
     /// # Errors
     /// [`crate::error::Kind::Scene`] when it does not fit in memory.
     pub fn new(cloth: &Cloth, sim: &Sim, x: &Points) -> Result<Self> {
-        let (side, g) = (cloth.width.max(cloth.height), len(sim.gravity));
+        let (side, g) = (cloth.width.max(cloth.height), length(sim.gravity));
         // Without weight the unit is a side of the cloth per second, squared.
         let acceleration = if g > 0.0 { g } else { side };
         let drag = match sim.damping {
@@ -118,8 +119,8 @@ impl RestWatch {
         let (mut farthest, mut change) = (0.0_f64, 0.0_f64);
         for p in 0..x.len() {
             let moved = x.get(p) - self.x.get(p);
-            farthest = farthest.max(len(moved));
-            change = change.max(len((moved - self.moved.get(p)) * self.fps + moved * self.drag));
+            farthest = farthest.max(length(moved));
+            change = change.max(length((moved - self.moved.get(p)) * self.fps + moved * self.drag));
             self.moved.set(p, moved);
         }
         self.x.copy_from(x);

@@ -22,9 +22,10 @@
 
 use crate::cloth::grid::{Grid, Pins, start_of};
 use crate::cloth::springs::Springs;
-use crate::cloth::{Params, Points, dot, filled};
+use crate::cloth::{Params, Points, filled};
 use crate::error::Result;
 use crate::integrator::{StepBound, step_bound, verlet_step_bound};
+use crate::math::dot;
 use crate::math::splitmix64;
 use crate::scene::{Cloth, Sim, Vec3};
 

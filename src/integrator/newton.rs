@@ -13,6 +13,7 @@ use crate::cloth::forces::Forces;
 use crate::cloth::springs::Springs;
 use crate::cloth::{Counters, Model, Points};
 use crate::error::Result;
+use crate::math;
 use crate::scene::{Cloth, Sim};
 
 /// Most iterations in a step.
@@ -108,7 +109,7 @@ impl Newton {
             let force = forces.get(p);
             self.residual.set(p, force - (x.get(p) - self.target.get(p)) * self.matrix.inertia[p]);
             let pulled = force - weight;
-            squares += pulled.dot(&pulled) + weight.dot(&weight);
+            squares += math::dot(pulled, pulled) + math::dot(weight, weight);
         }
         self.tolerance * squares.sqrt()
     }

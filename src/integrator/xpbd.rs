@@ -167,8 +167,8 @@ impl Constraints {
 mod tests {
     use super::*;
     use crate::cloth::grid::start;
-    use crate::cloth::len;
     use crate::lanes::level::Level;
+    use crate::math::length;
     use crate::math::splitmix64;
     use crate::scene::{Overrides, Scene, Vec3, load_text};
 
@@ -197,7 +197,7 @@ mod tests {
             }
             let (b, tension): (_, &mut f64) = (a - family.offset, &mut tensions[index][a]);
             let e = x.get(b) - x.get(a);
-            let l = len(e);
+            let l = length(e);
             let [moves_a, moves_b] = [a, b].map(|p| if pins.pinned[p] { 0.0 } else { moves });
             if l == 0.0 || moves_a + moves_b == 0.0 {
                 continue;

@@ -3,11 +3,12 @@
 use super::observer::Observer;
 use super::phase::Phase;
 use super::state::State;
-use crate::cloth::{Params, Points, dot};
+use crate::cloth::{Params, Points};
 use crate::collision::coulomb::Coulomb;
 use crate::diagnostics::energy::{Energy, spring_energy};
 use crate::diagnostics::ledger::Ledger;
 use crate::error::Result;
+use crate::math::dot;
 use crate::scene::ColliderKind;
 
 /// Records the ledger of a cloth while it moves.

@@ -1,8 +1,9 @@
 //! A step that is too short for the positions: what gravity adds in it is lost in their rounding.
 
 use super::state::State;
-use crate::cloth::{Params, len};
+use crate::cloth::Params;
 use crate::integrator::Resolution;
+use crate::math::length;
 
 /// A position that a step is too short for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,8 @@ impl State {
         let Resolution { unit, keeps_velocity } = self.integrator.resolution();
         let gravity = weight / mass;
         for p in self.pins.free.iter().cloned().flatten() {
-            let way = len(self.x.get(p) - self.last.get(p)) / dt * time + 0.5 * len(gravity) * time * time;
+            let way =
+                length(self.x.get(p) - self.last.get(p)) / dt * time + 0.5 * length(gravity) * time * time;
             for (axis, x) in self.x.get(p).iter().enumerate() {
                 let (g, rounding) = (gravity[axis].abs(), unit * x.abs());
                 let (fall, all) = (g * dt * dt, 0.5 * g * time * time);
